@@ -83,3 +83,38 @@ def read_scen(file: Path) -> None:
 
 MAP = b"image: map.pgm\nresolution: 0.05\norigin: [0.0, -1.5, 0.3]\nnegate: 0\noccupied_thresh: 0.65\nmode: scale\n"
 GRID = b"type octile\nheight 3\nwidth 4\nmap\n....\n.@T.\nGS..\n"
+
+BUILDING = b"""name: small
+coordinate_system: cartesian_meters
+lifts:
+  lift_a: {x: 7, y: 2, yaw: 0, width: 1.6, depth: 1.6, reference_floor_name: L1, initial_floor_name: L1,
+    doors: {front: {x: -0.8, y: 0, width: 1, motion_axis_orientation: 1.57, door_type: 2}},
+    level_doors: {L1: [front], L2: [front]}}
+levels:
+  L1:
+    elevation: 0
+    vertices:
+      - [0, 0, 0, ""]
+      - [8, 0, 0, ""]
+      - [8, 4, 0, ""]
+      - [0, 4, 0, ""]
+      - [1, 2, 0, west, {is_parking_spot: [4, true]}]
+      - [5, 2, 0, east]
+      - [7, 2, 0, cabin, {lift_cabin: [1, lift_a]}]
+      - [3, 0, 0, ""]
+      - [3, 1.4, 0, ""]
+      - [3, 2.6, 0, ""]
+      - [3, 4, 0, ""]
+    walls: [[0, 1], [1, 2], [2, 3], [3, 0], [7, 8], [9, 10]]
+    doors: [[8, 9, {name: [1, door], type: [1, sliding], motion_axis: [1, start], motion_direction: [2, 1]}]]
+    lanes: [[4, 5, {bidirectional: [4, true], speed_limit: [3, 0.4]}], [5, 6, {bidirectional: [4, true]}]]
+    floors: [{vertices: [0, 1, 2, 3]}]
+    models: [{model_name: Box, name: crate, static: true, x: 1.5, y: 3, yaw: 0.3, z: 0}]
+  L2:
+    elevation: 4
+    vertices: [[0, 0, 0, ""], [8, 0, 0, ""], [8, 4, 0, ""], [0, 4, 0, ""], [5, 2, 0, up],
+      [7, 2, 0, cabin, {lift_cabin: [1, lift_a]}]]
+    walls: [[0, 1], [1, 2], [2, 3], [3, 0]]
+    lanes: [[4, 5, {bidirectional: [4, true]}]]
+"""
+"""A building with a door and a lift."""

@@ -78,13 +78,17 @@ def mutate_text(data: bytes, rng: random.Random) -> bytes:
             lines[place : place + rng.randrange(2)] = lines[other : other + rng.choice((0, 1, 3))]
             data = b"".join(lines)
             continue
-        tokens = list(_TOKEN.finditer(data))
-        if not tokens:
+        place, other = _token(data, rng), _token(data, rng)
+        if place is None or other is None:
             return data + rng.choice(WORDS)
-        place = rng.choice(tokens)
-        word = rng.choice(WORDS) if rng.random() < 0.7 else rng.choice(tokens)[0]
+        word = rng.choice(WORDS) if rng.random() < 0.7 else other[0]
         data = data[: place.start()] + word + data[place.end() :]
     return data
+
+
+def _token(data: bytes, rng: random.Random) -> re.Match[bytes] | None:
+    """A token somewhere in a text, without a look at all of it; at times only the end of one."""
+    return _TOKEN.search(data, rng.randrange(len(data) + 1)) or _TOKEN.search(data)
 
 
 def in_zip(mutate: Mutate) -> Mutate:

@@ -27,7 +27,7 @@ class CrowdSession(ABC):
 
         Crowds move in turn, in the order of the configuration: those before this one have moved already, so that nobody
         of two crowds comes to the same place. Robots are seen where they were at the beginning of the period. A member
-        stays on its level.
+        stays on its level, and moves at most 5 m/s, or more than a metre in one step: then it is put there.
         """
 
     def wanted_doors(self) -> Set[str]:

@@ -30,4 +30,8 @@ class ExecutorSource(Component):
 
     @abstractmethod
     def open(self, workers: int) -> Executor:
-        """Return an executor that runs up to `workers` calls at a time; it is used as a context manager."""
+        """Return an executor that runs up to `workers` calls at a time, and is shut down in the end.
+
+        The result of each call must be the one that the call returned: what is said of another run, or has another
+        form, ends the study with an error that names the executor.
+        """

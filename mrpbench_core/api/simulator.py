@@ -27,7 +27,7 @@ class Simulation(ABC):
 
     @abstractmethod
     def scans(self) -> tuple[ScanBatch, ...]:
-        """Scans taken since the last call, in order of time."""
+        """Scans taken since the last call, in order of time; each has the beams of its robots' lidars."""
 
     @abstractmethod
     def close(self) -> None:

@@ -4,14 +4,15 @@ Arrays of a wrong shape broadcast, and comparisons with NaN are false: without t
 not stop the run but falsify its numbers.
 """
 
-from collections.abc import Sequence
-from typing import Any, NoReturn, TypeVar, cast
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any, NoReturn, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.checking.covariances import check_covariances
 from mrpbench_core.checking.recording import LARGEST
 from mrpbench_core.engine.own import own
 from mrpbench_core.model.common.arrays import Float, Int, Int32
@@ -26,6 +27,8 @@ T = TypeVar("T")
 _LAST_MODE = int(max(Mode))
 _TURN = 7.0
 """Radians by which a yaw may change without a closer look; more than a whole turn, since it may be wrapped."""
+EARLY = 1e-6
+"""Seconds by which a scan may be ahead of the clock, because times are rounded."""
 
 
 class ContractChecks:
@@ -37,10 +40,25 @@ class ContractChecks:
         length: i8[n] segments of each robot's path.
         reach: f8[n] metres that each robot can possibly move in one control period; None = not checked.
         movers: number of movers.
+        levels: number of levels of the world.
+        facilities: names of its doors and lifts.
+        beams: i8[n] beams of the lidar of each robot, 0 = it has none; None = not checked.
     """
 
-    def __init__(self, length: NDArray[Any], reach: NDArray[Any] | None = None, movers: int = 0) -> None:
+    def __init__(
+        self,
+        length: NDArray[Any],
+        reach: NDArray[Any] | None = None,
+        movers: int = 0,
+        *,
+        levels: int = 1,
+        facilities: Collection[str] = (),
+        beams: NDArray[Any] | None = None,
+    ) -> None:
         self.length = length
+        self._levels, self._facilities, self._beams = levels, frozenset(facilities), beams
+        self._scanned = -np.inf
+        """Time of the last scan."""
         self._reach = np.inf if reach is None else reach
         self._box = np.full((len(length), 3), _TURN)
         """f8[n,3]: robots whose poses change by no more have finite poses, and are where they can be."""
@@ -75,7 +93,10 @@ class ContractChecks:
         if not close:
             self._finite(kind, "pose", state.pose)
         self._finite(kind, "twist", state.twist)
-        self._one_each(kind, "level", state.level)
+        if before is None or state.level is not before.level:
+            self._one_each(kind, "level", state.level)
+            self._no_robot(kind, "a level that does not exist", (state.level < 0) | (state.level >= self._levels))
+        self._check_facilities(state.facilities)
         if before is None or state.contacts is not before.contacts:
             self._check_contacts(state.contacts)
         if before is not None and not close:
@@ -88,6 +109,20 @@ class ContractChecks:
     def _is_close(self, pose: Float, before: Float) -> bool:
         """Tell whether all poses f8[n,3] are finite and surely within reach of those `before`: a quick check."""
         return pose.shape == before.shape and np.count_nonzero(np.abs(pose - before) <= self._box) == pose.size
+
+    def _check_facilities(self, found: Any) -> None:
+        kind, before = "the simulator", self._before
+        if not isinstance(found, Mapping):
+            _refuse(kind, f"{type(found).__name__} instead of the state of doors and lifts")
+        if not (found or self._facilities):  # most worlds have none
+            return
+        if (found and found.keys() != self._facilities) or (
+            before is not None and found.keys() != before.facilities.keys()
+        ):
+            _refuse(kind, "other doors and lifts than there are")
+        for name, value in found.items():
+            if not (isinstance(value, float | int) and abs(value) <= LARGEST):
+                _refuse(kind, f"for {name!r} the state {value!r:.40}")
 
     def _check_contacts(self, contacts: Int32) -> None:
         one, other = contacts.T
@@ -103,25 +138,36 @@ class ContractChecks:
         ):
             _refuse("the simulator", "contacts that name no robot, or a robot twice")
 
-    def scans(self, batches: tuple[ScanBatch, ...]) -> tuple[ScanBatch, ...]:
-        """Check the scans that a simulator returns."""
+    def scans(self, batches: Sequence[ScanBatch], now: float) -> tuple[ScanBatch, ...]:
+        """Check the scans that a simulator returns at `now`."""
+        if not isinstance(batches, tuple | list):
+            _refuse("the simulator", f"{type(batches).__name__} instead of scans")
         for batch in batches:
             _require_class("the simulator", batch, ScanBatch)
+            if not (isinstance(batch.stamp, float | int) and self._scanned <= batch.stamp <= now + EARLY):
+                _refuse(
+                    "the simulator", f"a scan of the time {batch.stamp!r:.40} at {now:g} s, after {self._scanned:g} s"
+                )
+            self._scanned = batch.stamp
             if batch.robot.ndim != 1 or batch.ranges.ndim != 2 or len(batch.robot) != len(batch.ranges):
                 _refuse("the simulator", f"ranges of shape {batch.ranges.shape} for robots {batch.robot.tolist()}")
             if np.count_nonzero(batch.robot.astype(np.uint64) >= self._robots):  # as negative numbers are then
                 _refuse("the simulator", "a scan of a robot that does not exist")
             if np.count_nonzero(batch.ranges >= 0) < batch.ranges.size:
                 _refuse("the simulator", "ranges that are negative or no numbers")
-        return batches
+            if self._beams is not None and np.count_nonzero(self._beams[batch.robot] != batch.ranges.shape[1]):
+                _refuse("the simulator", f"scans of {batch.ranges.shape[1]} beams by robots that have other lidars")
+        return tuple(batches)
 
     def estimate(self, estimate: Estimate) -> Estimate:
         """Check the estimate that a localizer returns."""
         _require_class("the localizer", estimate, Estimate)
         estimate = own(estimate)
         self._finite("the localizer", "pose", estimate.pose)
-        if estimate.covariance is not None and np.shape(estimate.covariance) != (self._robots, 3, 3):
-            _refuse("the localizer", f"a covariance of shape {np.shape(estimate.covariance)}")
+        if estimate.covariance is not None:
+            fault = check_covariances(estimate.covariance, self._robots)
+            if fault is not None:
+                _refuse("the localizer", fault)
         return estimate
 
     def orders(self, orders: Orders) -> Orders:
@@ -219,10 +265,10 @@ class ContractChecks:
             _refuse(kind, f"for robot {int(bad.argmax())}: {what}")
 
 
-def check_returned(component: Component, returned: Any, wanted: type[T]) -> T:
+def check_returned(component: Component, returned: T, wanted: type) -> T:
     """Check the class of what a component returns."""
     _require_class(f"the {kind_of(component.group).replace('_', ' ')}", returned, wanted)
-    return cast("T", returned)
+    return returned
 
 
 def check_made(kind: str, fault: str | None) -> None:

@@ -58,7 +58,7 @@ class RunRecord:
         return cls(**{**message, "status": RunStatus(message["status"]), "error": error})
 
 
-@attrs.frozen(kw_only=True)
+@attrs.define(kw_only=True)
 class StoredRecord:
     """A run's record as results folders keep it."""
 

@@ -9,6 +9,9 @@ from mrpbench_core.files.printing import escaped
 Source = TypeVar("Source")
 Content = TypeVar("Content")
 
+LONGEST = 1000
+"""Characters of the message of an exception from foreign code."""
+
 
 class InputError(Exception):
     """An error in the user's input; printed as one line, never as a traceback.
@@ -37,7 +40,7 @@ class InputError(Exception):
         super().__init__(str(self))
 
     def __str__(self) -> str:
-        parts = [str(part) for part in (self.file, self.line, self.column) if part is not None]
+        parts = [str(part).replace("\n", r"\n") for part in (self.file, self.line, self.column) if part is not None]
         where = ":".join(parts) + ": " if parts else ""
         return escaped(where + self.message + (f" ({self.hint})" if self.hint else ""))
 
@@ -80,6 +83,9 @@ def read_all(read: Callable[[Source], Content], sources: Iterable[Source]) -> li
 
 
 def one_line(error: BaseException) -> str:
-    """Return type and message of an exception from foreign code as one line."""
-    text = " ".join(str(error).split())
+    """Return type and message of an exception from foreign code as one line, which is cut if it is very long."""
+    try:
+        text = " ".join(str(error)[:LONGEST].split())
+    except BaseException:  # noqa: BLE001 - which is foreign code, too
+        text = ""
     return f"{type(error).__name__}: {text}" if text else type(error).__name__

@@ -3,6 +3,7 @@
 import json
 import os
 from collections.abc import Mapping
+from hashlib import file_digest, sha256
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -18,6 +19,10 @@ def line(value: Mapping[str, Any]) -> str:
     return json.dumps(value, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
 
 
+def _identity(status: os.stat_result) -> tuple[int, int, int]:
+    return status.st_dev, status.st_ino, status.st_size
+
+
 class Writer:
     """Appends objects to a file; each is on disk when `write` returns.
 
@@ -31,15 +36,34 @@ class Writer:
             self.path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | (os.O_EXCL if exclusive else 0), 0o644
         )
         content = b"" if exclusive else self.path.read_bytes()
-        os.ftruncate(self._descriptor, content.rfind(b"\n") + 1)
+        kept = content[: content.rfind(b"\n") + 1]
+        os.ftruncate(self._descriptor, len(kept))
         os.lseek(self._descriptor, 0, os.SEEK_END)
+        self._written = sha256(kept)
+        self._left = _identity(os.fstat(self._descriptor))
 
     def write(self, *values: Mapping[str, Any]) -> None:
         """Append objects."""
         content = "".join(f"{line(value)}\n" for value in values).encode()
-        while content:
-            content = content[os.write(self._descriptor, content) :]
-        os.fsync(self._descriptor)
+        try:
+            while content:
+                size = os.write(self._descriptor, content)
+                self._written.update(content[:size])
+                content = content[size:]
+            os.fsync(self._descriptor)
+        finally:
+            self._left = _identity(os.fstat(self._descriptor))
+
+    def is_intact(self, *, content: bool = False) -> bool:
+        """Tell whether nothing else has replaced the file or changed its size, or also its content, since `write`."""
+        try:
+            found = _identity(self.path.lstat())
+            if content and found == self._left:
+                with self.path.open("rb") as stream:
+                    return file_digest(stream, "sha256").digest() == self._written.digest()
+        except OSError:
+            return False
+        return found == self._left
 
     def close(self) -> None:
         """Close the file; may be called twice."""

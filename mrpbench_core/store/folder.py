@@ -13,7 +13,6 @@ Merging two folders is copying the files of one into the other.
 """
 
 import secrets
-import shutil
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -21,6 +20,7 @@ import attrs
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.printing import file_name
+from mrpbench_core.files.removal import remove_tree
 from mrpbench_core.store.paths import RunPaths
 
 _ATTEMPTS = 100
@@ -94,7 +94,7 @@ class ResultsFolder:
         paths.partial.unlink(missing_ok=True)
         paths.recording.unlink(missing_ok=True)
         if paths.exports.exists():
-            shutil.rmtree(paths.exports)
+            remove_tree(paths.exports)
 
     def sweep(self) -> None:
         """Remove unfinished files of an invocation that was killed; only under the lock.
@@ -107,7 +107,7 @@ class ResultsFolder:
             unfinished += (self.path / part).rglob(".*.partial")
         for partial in unfinished:
             if partial.is_dir() and not partial.is_symlink():
-                shutil.rmtree(partial)
+                remove_tree(partial)
             else:
                 partial.unlink(missing_ok=True)
 

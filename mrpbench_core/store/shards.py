@@ -1,13 +1,14 @@
 """Reads files of records line by line: they may be larger than memory, and any line may be damaged."""
 
 import functools
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, BinaryIO
 
 import msgspec
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.jsonl import line
 from mrpbench_core.model.runs.status import RunStatus
 
 LINE_LIMIT = 16 * 2**20
@@ -91,19 +92,19 @@ def read_shard(path: Path, damaged: list[InputError] | None = None) -> Iterator[
             raise OSError(None, "it is not a file")  # a FIFO would be read without end
         with path.open("rb") as stream:
             offset, number = 0, 0
-            while line := stream.readline(LINE_LIMIT):
+            while text := stream.readline(LINE_LIMIT):
                 number += 1
                 try:
-                    if not line.endswith(b"\n"):
+                    if not text.endswith(b"\n"):
                         if not _skip_line(stream):
                             return
                         raise _fault(f"it is longer than {LINE_LIMIT // 2**20} MiB", path, number)
-                    if line.strip():
-                        yield offset, _record(line, path, number)
+                    if text.strip():
+                        yield offset, _record(text, path, number)
                 except InputError as error:
                     if damaged is not None:
                         damaged.append(error)
-                offset = offset + len(line) if line.endswith(b"\n") else stream.tell()
+                offset = offset + len(text) if text.endswith(b"\n") else stream.tell()
     except OSError as error:
         if damaged is not None:
             damaged.append(InputError(f"cannot be read: {error.strerror or error}", file=path))
@@ -120,6 +121,18 @@ def read_at(path: Path, offset: int) -> dict[str, Any]:
         return _record(stream.readline(LINE_LIMIT), path, None)
 
 
+def check_storable(record: Mapping[str, Any]) -> str | None:
+    """Return why a record could not be read again, or None."""
+    try:
+        text = f"{line(record)}\n".encode()
+        if len(text) > LINE_LIMIT:
+            return f"it is longer than {LINE_LIMIT // 2**20} MiB"
+        msgspec.convert(_decoder().decode(text), _Record)
+    except (msgspec.MsgspecError, TypeError, ValueError, RecursionError) as error:
+        return str(error)
+    return None
+
+
 def _skip_line(stream: BinaryIO) -> bool:
     """Read to the end of a line, in parts; tell whether it is finished."""
     while part := stream.readline(LINE_LIMIT):
@@ -128,9 +141,9 @@ def _skip_line(stream: BinaryIO) -> bool:
     return False
 
 
-def _record(line: bytes, path: Path, number: int | None) -> dict[str, Any]:
+def _record(text: bytes, path: Path, number: int | None) -> dict[str, Any]:
     try:
-        record: dict[str, Any] = _decoder().decode(line)
+        record: dict[str, Any] = _decoder().decode(text)
         msgspec.convert(record, _Record)
     except (msgspec.MsgspecError, UnicodeDecodeError) as error:
         raise _fault(str(error), path, number) from None

@@ -11,8 +11,10 @@ from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.scenario import Scenario, Task
 
-STATE = State(pose=np.zeros((2, 3)), twist=np.zeros((2, 2)), level=[0, 0], contacts=[[0, 1], [1, -1]])
-SCAN = ScanBatch(stamp=0.0, robot=[1], ranges=[[1.0, np.inf]])
+STATE = State(
+    pose=np.zeros((2, 3)), twist=np.zeros((2, 2)), level=[0, 0], contacts=[[0, 1], [1, -1]], facilities={"door": 1.0}
+)
+SCAN = ScanBatch(stamp=1.0, robot=[1], ranges=[[1.0, np.inf]])
 ESTIMATE = Estimate(pose=np.zeros((2, 3)))
 ORDERS = Orders(released=[2, 1])
 MOTION = Motion(twist=np.zeros((2, 2)), reached=[1, 1], cleared=[2, 0], mode=[0, 4])
@@ -20,12 +22,12 @@ MOTION = Motion(twist=np.zeros((2, 2)), reached=[1, 1], cleared=[2, 0], mode=[0,
 
 def checks():
     """Two robots with paths of two segments and one."""
-    return ContractChecks(np.array([2, 1]))
+    return ContractChecks(np.array([2, 1]), facilities=["door"], beams=np.array([0, 2]))
 
 
 def test_what_keeps_the_contract_goes_through_as_a_copy():
     checked = checks()
-    assert checked.scans((SCAN,)) == (SCAN,)
+    assert checked.scans([SCAN], 1.0) == (SCAN,)
     for check, given in (
         (checked.state, STATE),
         (checked.estimate, ESTIMATE),
@@ -45,6 +47,12 @@ def test_what_keeps_the_contract_goes_through_as_a_copy():
         ({"pose": [[0, 0, 0], [0, 1e12, 0]]}, "for robot 1 the pose .* too large"),
         ({"twist": np.full((2, 2), np.inf)}, "for robot 0 the twist"),
         ({"level": [0]}, r"level of shape \(1,\) for 2 robots"),
+        ({"level": [0, 1]}, "for robot 1: a level that does not exist"),
+        ({"level": [-1, 0]}, "for robot 0: a level that does not exist"),
+        ({"facilities": {"door": np.nan}}, "for 'door' the state nan"),
+        ({"facilities": {"door": "open"}}, "for 'door' the state 'open'"),
+        ({"facilities": {"door": 0.0, "lift": 0.0}}, "other doors and lifts than there are"),
+        ({"facilities": [0.0]}, "list instead of the state of doors and lifts"),
         ({"contacts": [[0, 2]]}, "contacts"),
         ({"contacts": [[1, 1]]}, "contacts"),
     ],
@@ -60,7 +68,7 @@ def test_wrong_states_are_refused_first_and_later(changes, message):
 
 @pytest.mark.parametrize("away", [(0.99, 0.0), (0.7, -0.7), (1.01, 0.0), (-0.72, 0.72)])
 def test_a_robot_may_move_as_far_as_it_can_in_any_direction(away):
-    checked = ContractChecks(np.array([2, 1]), np.array([1.0, 3.0]))
+    checked = ContractChecks(np.array([2, 1]), np.array([1.0, 3.0]), facilities=["door"])
     moved = attrs.evolve(STATE, pose=[(*away, 9.0), (2.0, 2.0, -9.0)])
     checked.state(STATE)
     if np.hypot(*away) <= 1:
@@ -85,19 +93,66 @@ def test_progress_that_has_not_changed_is_the_same_array_and_a_change_in_place_i
 
 
 @pytest.mark.parametrize(
-    "changes", [{"robot": [2]}, {"robot": [0, 1]}, {"ranges": [1.0]}, {"ranges": [[np.nan]]}, {"ranges": [[-1.0]]}]
+    "changes",
+    [
+        {"robot": [2]},
+        {"robot": [0, 1]},
+        {"ranges": [1.0]},
+        {"ranges": [[np.nan, 1.0]]},
+        {"ranges": [[-1.0, 1.0]]},
+        {"ranges": [[1.0]]},
+        {"robot": [0]},
+        {"stamp": np.nan},
+        {"stamp": "now"},
+        {"stamp": 0.9},
+        {"stamp": 1.2},
+    ],
 )
 def test_wrong_scans_are_refused(changes):
+    checked = checks()
+    checked.scans((SCAN,), 1.1)
     with pytest.raises(BrokenContractError, match="the simulator returned"):
-        checks().scans((attrs.evolve(SCAN, **changes),))
+        checked.scans((attrs.evolve(SCAN, **changes),), 1.1)
+
+
+def test_a_simulator_cannot_lose_its_doors():
+    checked = checks()
+    checked.state(STATE)
+    with pytest.raises(BrokenContractError, match="other doors and lifts than there are"):
+        checked.state(attrs.evolve(STATE, facilities={}))
+
+
+def covariance(**entries):
+    """Covariances of two robots, with some entries of the first one, such as `xy`, replaced."""
+    found = np.repeat(np.eye(3)[None], 2, axis=0)
+    for places, value in entries.items():
+        found[(0, *map("xyt".index, places))] = value
+    return found
 
 
 @pytest.mark.parametrize(
-    "changes", [{"pose": np.zeros((3, 3))}, {"pose": np.full((2, 3), np.nan)}, {"covariance": np.zeros((2, 3))}]
+    "changes",
+    [
+        {"pose": np.zeros((3, 3))},
+        {"pose": np.full((2, 3), np.nan)},
+        {"covariance": np.zeros((2, 3))},
+        {"covariance": covariance().tolist()},
+        {"covariance": covariance().astype(object)},
+        {"covariance": covariance(xx=np.nan)},
+        {"covariance": covariance(tt=np.inf)},
+        {"covariance": covariance(yy=-1e-3)},
+        {"covariance": covariance(xy=0.5)},
+        {"covariance": covariance(xy=2.0, yx=2.0)},
+    ],
 )
 def test_wrong_estimates_are_refused(changes):
     with pytest.raises(BrokenContractError, match="the localizer returned"):
         checks().estimate(attrs.evolve(ESTIMATE, **changes))
+
+
+@pytest.mark.parametrize("found", [covariance(), 0 * covariance(), covariance(xy=1.0, yx=1.0, tt=0.0)])
+def test_covariances_of_what_is_known_exactly_go_through(found):
+    checks().estimate(attrs.evolve(ESTIMATE, covariance=found))
 
 
 @pytest.mark.parametrize(("released", "message"), [([2], "shape"), ([3, 1], "more segments"), ([-1, 0], "less than")])

@@ -1,14 +1,15 @@
 """The crowds of one execution: they move in turn and see one another; their members are numbered one after another."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from itertools import pairwise
-from typing import NoReturn
+from typing import Any, NoReturn
 
 import attrs
 import numpy as np
 
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.crowd import Crowd, CrowdSession
+from mrpbench_core.checking.recording import LARGEST
 from mrpbench_core.engine.execution.blockages import Blockages
 from mrpbench_core.engine.execution.faults import FaultEvent
 from mrpbench_core.engine.execution.gait import Gait
@@ -16,10 +17,19 @@ from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.model.common.arrays import Float, Int16, Int32
 from mrpbench_core.model.common.fleet import Fleet
-from mrpbench_core.model.execution.movers import CrowdView, Mover, Movers
+from mrpbench_core.model.execution.movers import JUMP, CrowdView, Mover, Movers
 from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.world import World
+
+FASTEST = 5.0
+"""m/s at which members may move, and push a robot."""
+LARGEST_RADIUS = 10.0
+"""Metres of a member."""
+LONGEST_KIND = 64
+"""Characters of the kind of a member."""
+ROUNDING = 1e-6
+"""Metres."""
 
 
 class Crowds:
@@ -75,8 +85,8 @@ class Crowds:
             _refuse(f"{type(session).__name__} instead of a session")
         members = own(tuple(session.members))
         for member in members:
-            if not (type(member) is Mover and member.radius > 0 and member.leg_radius >= 0):
-                _refuse(f"the member {member!r:.60}")
+            if not _exists(member):
+                _refuse(f"the member {member!r:.80}")
         self._sessions.append(session)
         self.members += members
         self._radius = np.array([member.radius for member in self.members])
@@ -97,12 +107,26 @@ class Crowds:
             seen = CrowdView(state=own(state), others=others, radius=self._radius[rest])
             parts[index] = self._sessions[index].step(self._period, seen)
             self.movers = self._joined(parts)
+            self._check_step(before, self.movers)
+
+    def _check_step(self, before: Movers, now: Movers) -> None:
+        way = np.hypot(*(now.pose - before.pose)[:, :2].T)
+        moved = (way <= JUMP) & (now.level == before.level) & (now.level >= 0)
+        if (way > FASTEST * self._period + ROUNDING)[moved].any():
+            _refuse(f"a member that moves {way[moved].max() / self._period:.1f} m/s; {FASTEST:g} m/s are the most")
+        if (_arrivals(now) < _arrivals(before)).any():
+            _refuse("fewer goals that a member has reached than before")
 
     def doors(self, state: State, commands: Mapping[str, float]) -> dict[str, float]:
         """Return `commands` to facilities with the doors that members want to be open, or no longer want."""
         if not state.facilities:
             return dict(commands)
-        wanted = {name for session in self._sessions for name in session.wanted_doors()}
+        wanted: set[str] = set()
+        for session in self._sessions:
+            names = session.wanted_doors()
+            if not isinstance(names, Set):
+                _refuse(f"{type(names).__name__} instead of a set of doors")
+            wanted |= names
         if wanted - self._doors:
             _refuse(f"doors that the world does not have: {', '.join(sorted(map(str, wanted - self._doors)))}")
         self._opened |= wanted
@@ -128,10 +152,10 @@ class Crowds:
                 _refuse(f"{type(part).__name__} instead of Movers")
             if not len(part.pose) == len(part.velocity) == len(part.level) == size:
                 _refuse(f"{len(part.pose)} movers instead of {size}")
-            if not np.isfinite(part.pose).all() or not np.isfinite(part.velocity).all():
-                _refuse("a place or velocity that is not finite")
-            if part.arrivals is not None and len(part.arrivals) != size:
-                _refuse(f"arrivals of {len(part.arrivals)} movers instead of {size}")
+            if not (np.abs(part.pose) <= LARGEST).all() or not (np.abs(part.velocity) <= LARGEST).all():
+                _refuse("a place or velocity that is not finite, or too large")
+            if part.arrivals is not None and (len(part.arrivals) != size or min(part.arrivals, default=0) < -1):
+                _refuse("arrivals that are not one number from -1 on for each mover")
             if size and not (part.level.min() >= -1 and part.level.max() < self._levels):
                 _refuse("a level that the world does not have")
         if not parts:
@@ -142,6 +166,18 @@ class Crowds:
             level=np.concatenate([part.level for part in parts]),
             arrivals=np.concatenate([_arrivals(part) for part in parts]),
         )
+
+
+def _exists(member: Any) -> bool:
+    """Tell whether something is a mover, and can be one."""
+    if type(member) is not Mover:
+        return False
+    kind: Any = member.kind
+    try:
+        sizes = 0 < member.radius <= LARGEST_RADIUS and 0 <= member.leg_radius <= member.radius
+    except TypeError:
+        return False
+    return sizes and isinstance(kind, str) and 0 < len(kind) <= LONGEST_KIND
 
 
 def _arrivals(movers: Movers) -> Int32:

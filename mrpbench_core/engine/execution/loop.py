@@ -6,10 +6,12 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from mrpbench_core.api.contract import BrokenContractError
-from mrpbench_core.api.dispatcher import DispatchError
-from mrpbench_core.engine.contract_checks import ContractChecks
+from mrpbench_core.api.dispatcher import DispatchError, DispatcherSession
+from mrpbench_core.api.localizer import LocalizerSession
+from mrpbench_core.api.navigator import NavigatorSession
+from mrpbench_core.engine.contract_checks import ContractChecks, check_returned
 from mrpbench_core.engine.execution.arrivals import REST, Arrivals
+from mrpbench_core.engine.execution.crowds import FASTEST
 from mrpbench_core.engine.execution.cutting import DrivenSegments, shifted
 from mrpbench_core.engine.execution.destinations import heads
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
@@ -31,10 +33,9 @@ from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.model.planning.plan import Paths
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.model.worlds.facilities import Facilities
 
 ABORTED = int(Mode.ABORTED)
-PUSHED = 5.0
-"""m/s at which movers may push a robot."""
 
 
 class ExecutionLoop:
@@ -61,14 +62,24 @@ class ExecutionLoop:
         self._driven = DrivenSegments(robots)
         """The segments that are not part of the plan any more."""
         self._causes: dict[int, str] = {}
-        self._checks = ContractChecks(Paths.of(plan.paths).size, _reach(context), len(inputs.crowds.members))
+        lidars = [robot.lidar for robot in context.fleet.robots]
+        self._checks = ContractChecks(
+            Paths.of(plan.paths).size,
+            _reach(context),
+            len(inputs.crowds.members),
+            levels=len(context.world.levels),
+            facilities=Facilities(context.world).names,
+            beams=np.array([0 if lidar is None else lidar.beams for lidar in lidars], np.int64),
+        )
         self._checks.state(attrs.evolve(inputs.simulation.state, pose=inputs.placed))
         self._state: State = self._checks.state(inputs.simulation.state)
-        self._dispatcher = components.dispatcher.start(given.problem, given.result.plan)
-        self._localizer = components.localizer.start(
-            given.fleet, given.world, self._state.pose.copy(), seed_of(*inputs.seeds, "localizer")
-        )
-        self._navigator = components.navigator.start(
+        dispatcher, localizer, navigator = components.dispatcher, components.localizer, components.navigator
+        dispatching = dispatcher.start(given.problem, given.result.plan)
+        self._dispatcher = check_returned(dispatcher, dispatching, DispatcherSession)
+        placed, seed = self._state.pose.copy(), seed_of(*inputs.seeds, "localizer")
+        localizing = localizer.start(given.fleet, given.world, placed, seed)
+        self._localizer = check_returned(localizer, localizing, LocalizerSession)
+        navigating = navigator.start(
             given.fleet,
             given.world,
             given.routes,
@@ -76,9 +87,7 @@ class ExecutionLoop:
             context.period,
             seed_of(*inputs.seeds, "navigator"),
         )
-        for kind in ("dispatcher", "localizer", "navigator"):
-            if getattr(self, f"_{kind}") is None:
-                raise BrokenContractError(f"the {kind} returned None instead of a session")
+        self._navigator = check_returned(navigator, navigating, NavigatorSession)
         self._facility_manager = FacilityManager(context.world, context.problem, plan)
         self._arrivals = Arrivals(context.routes, inputs.goal_tolerance)
         sets = Feature.GOAL_SETS in inputs.replanner.supports
@@ -112,7 +121,7 @@ class ExecutionLoop:
         """The current data of sensors and localizers."""
         inputs, state = self._inputs, self._state
         odometry = inputs.noise.odometry(state)
-        scans = inputs.faults.scans(inputs.noise.scans(self._checks.scans(inputs.simulation.scans())))
+        scans = inputs.faults.scans(inputs.noise.scans(self._checks.scans(inputs.simulation.scans(), self._now)))
         truth = state.pose.copy() if inputs.components.needs_truth else None
         measured, seen = own(odometry), own(scans)
         estimate = self._checks.estimate(self._localizer.update(self._now, measured, seen, truth))
@@ -344,7 +353,7 @@ def _reach(context: RunContext) -> NDArray[np.float64]:
 
     A mover pushes a robot that it touches as fast as it moves.
     """
-    pushed = 2 * PUSHED * context.period if context.movers else 0.0
+    pushed = 2 * FASTEST * context.period if context.movers else 0.0
     return np.array([2 * robot.max_speed * context.period + pushed + 0.05 for robot in context.fleet.robots])
 
 

@@ -2,9 +2,7 @@
 
 import os
 import sys
-import tempfile
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import psutil
@@ -43,23 +41,18 @@ def call(
         CallFailedError: there is no process, it crashed, or it exceeded a limit.
         InputError, InputErrors: the function found mistakes of the user.
     """
-    with tempfile.TemporaryDirectory(prefix="mrpbench-") as folder:
-        log = Path(folder, "log.txt")
-        job = {
-            "call": f"{function.__module__}:{function.__qualname__}",
-            "arguments": arguments,
-            "folder": os.getcwd(),  # noqa: PTH109
-            "log": str(log),
-            "wall_s": limit_s,
-            "memory_bytes": memory_bytes,
-        }
-        try:
-            answer = ask_in_slot(slots, job)
-        except (WorkerDied, OSError, TypeError, ValueError) as error:  # the last two: arguments that are no plain data
-            raise CallFailedError(str(error)) from error
-        finally:
-            if log.exists():  # a plugin's output is not part of ours
-                sys.stderr.write(log.read_text(errors="replace"))
+    job = {
+        "call": f"{function.__module__}:{function.__qualname__}",
+        "arguments": arguments,
+        "folder": os.getcwd(),  # noqa: PTH109
+        "wall_s": limit_s,
+        "memory_bytes": memory_bytes,
+    }
+    try:
+        answer = ask_in_slot(slots, job)
+    except (WorkerDied, OSError, TypeError, ValueError) as error:  # the last two: arguments that are no plain data
+        raise CallFailedError(str(error)) from error
+    sys.stderr.write(answer.get("printed", ""))  # a plugin's output is not part of ours
     if "failure" in answer:
         late = answer["failure"]["status"] == RunStatus.WALL_TIMEOUT
         message = str(answer["failure"]["message"]).replace("limits.memory allows", "allowed are")

@@ -4,10 +4,12 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 from collections.abc import Mapping
 from typing import Any
 
 from mrpbench_core.engine.processes.channel import Channel, ClosedError, GarbledError, new_key
+from mrpbench_core.files.removal import remove_tree
 
 ENDING_S = 10.0
 """Seconds that a supervisor may take to kill its jobs and end."""
@@ -25,10 +27,11 @@ class Child:
     """One supervisor process. It is in a session of its own, so that it does not receive Ctrl-C."""
 
     def __init__(self) -> None:
-        ours, theirs = socket.socketpair()
+        self._folder = tempfile.mkdtemp(prefix="mrpbench-")
+        module, (ours, theirs) = "mrpbench_core.engine.processes.supervisor", socket.socketpair()
         with theirs:
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "mrpbench_core.engine.processes.supervisor", str(theirs.fileno())],
+                [sys.executable, "-P", "-m", module, str(theirs.fileno()), self._folder],
                 stdin=subprocess.DEVNULL,
                 stdout=subprocess.DEVNULL,
                 pass_fds=[theirs.fileno()],
@@ -77,6 +80,7 @@ class Child:
             self._process.kill()
             self._process.wait()
         self._channel.close()
+        remove_tree(self._folder, ignore_errors=True)  # it does so itself unless it was killed
 
     def _end(self) -> WorkerDied:
         """The exception that says how the process ended."""

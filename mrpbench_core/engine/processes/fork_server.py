@@ -97,7 +97,8 @@ class ForkServer:
 
 def _serve(connection: socket.socket, channel: Channel, job: Mapping[str, Any], execute: Execute) -> NoReturn:
     redirect(job["log"])
-    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    for number in (signal.SIGTERM, signal.SIGINT):  # from outside, which is no exception of a plugin
+        signal.signal(number, signal.SIG_DFL)
     os.setsid()  # Ctrl-C reaches the invoker only
     tell_imports(lambda plugin: channel.send({"importing": plugin}))
     hooks, unpacking = Hooks(), cast("Unpack", unpack)

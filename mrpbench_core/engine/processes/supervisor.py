@@ -1,4 +1,5 @@
-"""The supervisor process of a worker slot, a module that is run with one descriptor: its connection to the invoker.
+"""The supervisor process of a worker slot, a module that is run with a descriptor, its connection to the invoker, and a
+folder for temporary files, which both remove.
 
 It executes one job after another, each in a fresh process, and never a plugin. It adopts every process that a job
 leaves behind, and kills the whole tree when the job ends, when it exceeds a limit, and when the invoker ends.
@@ -6,7 +7,6 @@ leaves behind, and kills the whole tree when the job ends, when it exceeds a lim
 
 import json
 import os
-import shutil
 import signal
 import socket
 import sys
@@ -23,6 +23,7 @@ from mrpbench_core.engine.processes.output import cut, remove_empty
 from mrpbench_core.engine.processes.process_tree import become_subreaper, kill_descendants
 from mrpbench_core.engine.processes.supervision import Supervision
 from mrpbench_core.engine.processes.worker import execute_job
+from mrpbench_core.files.removal import remove_tree
 
 SERVERS = 4
 """Fork servers that are kept, the most recently used ones."""
@@ -31,9 +32,10 @@ SERVERS = 4
 class Supervisor:
     """Executes jobs until the invoker closes the connection."""
 
-    def __init__(self, connection: socket.socket) -> None:
+    def __init__(self, connection: socket.socket, folder: str) -> None:
         self._connection = connection
         self._invoker = Channel(connection, connection.recv(KEY_BYTES, socket.MSG_WAITALL))
+        self._folder = folder
         self._servers: OrderedDict[str, ForkServer] = OrderedDict()
 
     def serve(self) -> None:
@@ -48,24 +50,27 @@ class Supervisor:
             kill_descendants()
 
     def _answer(self, job: dict[str, Any]) -> dict[str, Any]:
-        """Execute a job; return its answer."""
-        log = Path(job["log"])
+        """Execute a job; return its answer, with what plugins printed if the job names no file for it."""
+        log = Path(job.get("log") or Path(self._folder, "log.txt"))
         try:
             log.unlink(missing_ok=True)
             log.touch()
         except OSError as error:
             return {"mistake": f"{log}: {error.strerror}"}
         try:
-            temporary = tempfile.mkdtemp(prefix="mrpbench-")
+            temporary = tempfile.mkdtemp(prefix="run-", dir=self._folder)
         except OSError as error:
             return {"mistake": f"no temporary folder: {error.strerror}"}
         try:
-            return self._execute({**job, "temporary": temporary}, log)
+            answer = self._execute({**job, "log": str(log), "temporary": temporary}, log)
+            if "log" not in job and log.exists():
+                answer["printed"] = log.read_text(errors="replace")
+            return answer
         finally:
             try:
                 os.rmdir(temporary)  # noqa: PTH106 - called for every run
             except OSError:
-                shutil.rmtree(temporary, ignore_errors=True)
+                remove_tree(temporary, ignore_errors=True)
 
     def _execute(self, job: dict[str, Any], log: Path) -> dict[str, Any]:
         plugins, server = self._server(job)
@@ -103,26 +108,34 @@ def _plugins(value: Any) -> Iterator[str]:
             yield from _plugins(inner)
 
 
-def main(descriptor: int) -> None:
-    """Serve the invoker at the other end of a socket."""
+def main(descriptor: int, folder: str) -> None:
+    """Serve the invoker at the other end of a socket, with temporary files in a folder."""
     become_subreaper()
     connection = socket.socket(fileno=descriptor)
     connection.set_inheritable(False)
-    signal.signal(signal.SIGTERM, _terminate)
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, _terminate)
+    ended_by = None
     try:
-        Supervisor(connection).serve()
-    except _TerminatedError:
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)
-        os.kill(os.getpid(), signal.SIGTERM)
+        Supervisor(connection, folder).serve()
+    except _TerminatedError as termination:
+        ended_by = termination.number
+    remove_tree(folder, ignore_errors=True)
+    if ended_by is not None:
+        signal.signal(ended_by, signal.SIG_DFL)
+        os.kill(os.getpid(), ended_by)
 
 
 class _TerminatedError(BaseException):
-    """SIGTERM was received."""
+    """A signal that ends the process was received."""
+
+    def __init__(self, number: int) -> None:
+        self.number = number
 
 
 def _terminate(number: int, frame: object) -> NoReturn:  # noqa: ARG001
-    raise _TerminatedError
+    raise _TerminatedError(number)
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]))
+    main(int(sys.argv[1]), sys.argv[2])

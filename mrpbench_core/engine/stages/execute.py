@@ -7,9 +7,12 @@ from collections.abc import Mapping
 import attrs
 import numpy as np
 
+from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.dispatcher import DispatchError
+from mrpbench_core.api.simulator import Simulation
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.contract_checks import check_returned
 from mrpbench_core.engine.execution.crowds import Crowds
 from mrpbench_core.engine.execution.destinations import Places
 from mrpbench_core.engine.execution.draws import Draws
@@ -233,7 +236,9 @@ def _simulate(
     seed = seed_of(*seeds, "simulator")
     radii = [mover.radius for mover in crowds.members]
     placed = poses.copy(), seed, context.period, radii
-    with config.simulator.open(given.world, given.fleet, *placed, levels=levels.copy()) as simulation:
+    opened = config.simulator.open(given.world, given.fleet, *placed, levels=levels.copy())
+    result: ExecutionResult | None = None
+    with check_returned(config.simulator, opened, Simulation) as simulation:
         if not np.array_equal(simulation.state.level, levels):
             raise ExecutionError("the simulator supports the lowest level only, and robots start on other levels")
         loop = ExecutionLoop(
@@ -259,6 +264,8 @@ def _simulate(
             )
         )
         result = loop.run()
+    if result is None:
+        raise BrokenContractError("the simulator hid an exception")
     if tasks is not None and tasks.assignment_s:
         inputs.timing.update(_calls("assignment", tasks.assignment_s))
     return result

@@ -67,7 +67,7 @@ class Observer:
         ours, theirs = socket.socketpair()
         with theirs:
             self._process = subprocess.Popen(
-                [sys.executable, "-m", "mrpbench_core.engine.study.hook_process", str(theirs.fileno())],
+                [sys.executable, "-P", "-m", "mrpbench_core.engine.study.hook_process", str(theirs.fileno())],
                 stdin=subprocess.DEVNULL,
                 stdout=2,  # standard output is for what the command prints
                 pass_fds=[theirs.fileno()],

@@ -10,6 +10,7 @@ import attrs
 
 from mrpbench_core.engine.loading.runs import StudyRun, StudyRuns
 from mrpbench_core.engine.processes.machine import machine
+from mrpbench_core.engine.study.calls import opened
 from mrpbench_core.engine.study.commits import Commits
 from mrpbench_core.engine.study.hooks import StudyHooks
 from mrpbench_core.engine.study.options import StudyOptions
@@ -80,9 +81,9 @@ def _do(
         sync_folder(shard.path.parent)
     except OSError as error:
         raise InputError(f"cannot be written: {error.strerror}", file=error.filename or folder.path) from error
-    with closing(shard), StudyHooks() as hooks, options.executor.open(options.workers) as executor:
+    with closing(shard), StudyHooks() as hooks, opened(options.executor, options.workers, slots) as calls:
         schedule = RunQueue(
-            slots=slots,
+            calls=calls,
             waiting=deque(selection.todo),
             workers=options.workers,
             folder=folder,
@@ -96,7 +97,7 @@ def _do(
             progress=options.progress,
         )
         hooks.call("mrpbench_study_started", study=study.document, runs=len(selection.todo))
-        schedule.run_all(executor)
+        schedule.run_all()
         hooks.call("mrpbench_study_finished", records=len(selection.todo) - len(schedule.mistakes))
     return schedule.mistakes
 

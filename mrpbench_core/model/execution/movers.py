@@ -16,11 +16,11 @@ class Mover:
     """What does not change about a mover. Its body is a disc."""
 
     radius: float
-    """metres of the disc that touches."""
+    """metres of the disc that touches, at most 10."""
     kind: str = "person"
-    """What it is, as names, pictures and bags say it: `person`, `cart`."""
+    """What it is, as names, pictures and bags say it: `person`, `cart`; at most 64 characters."""
     leg_radius: float = 0.0
-    """metres of each of the two legs that lidars see; 0 = they see the disc."""
+    """metres of each of the two legs that lidars see, at most those of the disc; 0 = they see the disc."""
 
 
 @attrs.frozen(kw_only=True)

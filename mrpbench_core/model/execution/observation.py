@@ -37,7 +37,7 @@ class Estimate:
     pose: Float = array("f8", 3)
     """f8[n,3] in the frame `map`."""
     covariance: Float | None = None
-    """f8[n,3,3] or None."""
+    """f8[n,3,3], finite, symmetric and positive semi-definite, or None."""
 
 
 @attrs.frozen(kw_only=True)

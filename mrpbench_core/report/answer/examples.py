@@ -96,9 +96,10 @@ def _failed(report: Report, part: SettingAnswer, counted: Int) -> Iterator[Examp
 def _contrast(report: Report, part: SettingAnswer, ranking: Ranking) -> Contrast | None:
     """The scenario that took another configuration the most time more than the first one, if that is noticeable."""
     values, units = report.runs.values[ranking.column.name], part.setting.units
-    first, *others = (
-        (place.name, *_by_unit(part, place.style, values, units)) for place in ranking.places if place.estimate
-    )
+    placed = [(place.name, *_by_unit(part, place.style, values, units)) for place in ranking.places if place.estimate]
+    if not placed:
+        return None
+    first, *others = placed
     pairs = []
     for name, own, runs in others:
         _, here, there = np.intersect1d(first[1], own, assume_unique=True, return_indices=True)

@@ -4,6 +4,7 @@ import numpy as np
 
 from mrpbench_core.api.localizer import Localizer
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
+from mrpbench_core.checking.covariances import check_covariances
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.execution.observation import Estimate, Odometry
 from mrpbench_core.model.execution.state import Inputs
@@ -33,8 +34,8 @@ class LocalizerConformance(ComponentConformance):
                 np.isfinite(estimate.pose).all(), "an estimate is not finite: keep the last one where there is none"
             )
             if estimate.covariance is not None:
-                shape = np.shape(estimate.covariance)
-                require(shape == (2, 3, 3), f"covariances of two robots have shape {shape}")
+                fault = check_covariances(estimate.covariance, 2)
+                require(fault is None, f"returns {fault} for two robots")
 
     def test_follows_robots_whose_sensors_are_exact(self) -> None:
         estimates, truths = self.drive(0)

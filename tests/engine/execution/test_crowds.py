@@ -29,20 +29,23 @@ class Asking(Crowd):
 
     doors: tuple[str, ...] = ()
     place: float = 1.0
+    speed: float = 0.0
+    arrivals: tuple[int, int] = (0, 0)
+    mover: Mover = Mover(radius=0.1)
 
     def start(self, world, fleet, seed, seen):
         return AskingSession(self)
 
 
 class AskingSession(CrowdSession):
-    members = (Mover(radius=0.1),)
-
     def __init__(self, options):
-        self.options, self.seen = options, []
+        self.options, self.seen, self.members = options, [], (options.mover,)
 
     @property
     def movers(self):
-        return Movers(pose=[[self.options.place, 1.0, 0.0]], velocity=[[0.0, 0.0]], level=[0])
+        place = self.options.place + self.options.speed * PERIOD * len(self.seen)
+        arrivals = [self.options.arrivals[bool(self.seen)]]
+        return Movers(pose=[[place, 1.0, 0.0]], velocity=[[0.0, 0.0]], level=[0], arrivals=arrivals)
 
     def step(self, dt, seen):
         self.seen.append(seen)
@@ -99,10 +102,35 @@ def test_doors_open_while_members_want_them_and_close_again():
     assert crowds.doors(attrs.evolve(STATE, facilities={}), {}) == {}  # the simulator has none
 
 
-@pytest.mark.parametrize(("crowd", "said"), [(Asking(place=np.nan), "not finite"), (Asking(doors=("gate",)), "gate")])
+@pytest.mark.parametrize(
+    ("crowd", "said"),
+    [
+        (Asking(place=np.nan), "not finite"),
+        (Asking(place=1e10), "too large"),
+        (Asking(doors=("gate",)), "gate"),
+        (Asking(speed=5.1), r"a member that moves 5\.1 m/s; 5 m/s are the most"),
+        (Asking(arrivals=(-2, 0)), "arrivals that are not"),
+        (Asking(arrivals=(2, 1)), "fewer goals that a member has reached"),
+        (Asking(mover=Mover(radius=np.inf)), "the member Mover"),
+        (Asking(mover=Mover(radius="0.1")), "the member Mover"),
+        (Asking(mover=Mover(radius=0.1, leg_radius=np.inf)), "the member Mover"),
+        (Asking(mover=Mover(radius=0.1, kind=b"person")), "the member Mover"),
+        (Asking(mover=Mover(radius=0.1, kind=65 * "x")), "the member Mover"),
+    ],
+)
 def test_what_a_crowd_must_not_return_is_refused(crowd, said):
+    def use():
+        crowds = start(crowd, world=building())
+        crowds.doors(STATE, {})
+        crowds.step(STATE)
+
     with pytest.raises(BrokenContractError, match=said):
-        start(crowd, world=building()).doors(STATE, {})
+        use()
+
+
+@pytest.mark.parametrize("speed", [5.0, 1.1 / PERIOD])
+def test_members_may_run_or_be_put_elsewhere(speed):
+    start(Asking(speed=speed)).step(STATE)
 
 
 def test_crowds_apart_see_no_robots_and_simulators_none_of_their_members():

@@ -2,6 +2,7 @@
 
 import os
 import resource
+import shutil
 import subprocess
 import sys
 import types
@@ -17,6 +18,8 @@ from mrpbench_core.files.jsonl import Writer
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_core.store.results import Results
+
+FAILURE = Failure(status=RunStatus.CRASHED, stage=Stage.WORKER, message="x", seconds=0.0)
 
 
 @pytest.fixture
@@ -101,3 +104,37 @@ def test_a_full_disk_is_one_line_and_keeps_the_records_before(commits, folder):
         resource.setrlimit(resource.RLIMIT_FSIZE, before)
     assert folder.shard("1").read_bytes().count(b"\n") == 1
     assert [record["run_id"] for record in Results(folder)] == ["a"]
+
+
+@pytest.mark.parametrize(
+    "act",
+    [
+        lambda shard: shard.write_text(""),
+        Path.unlink,
+        lambda shard: shutil.rmtree(shard.parent),
+        lambda shard: shard.write_text(shard.read_text().replace("crashed", "succeed")),
+        lambda shard: shard.with_name("9.jsonl").write_text("{}\n"),
+    ],
+)
+def test_a_file_of_records_that_something_else_writes_is_reported_and_loses_no_later_record(
+    folder, commits, caplog, act
+):
+    commits.add([ended("ab", failure=FAILURE)])
+    commits.stored()
+    act(folder.shard("1"))
+    commits.add([ended("cd", failure=FAILURE)])
+    commits.close()
+    (warning,) = caplog.messages
+    assert "was changed while runs were executed, by one of their plugins" in warning
+    assert "cd" in Results(folder)
+
+
+@pytest.mark.parametrize("metrics", [{"x": float("nan")}, {"x": 2**24 * "x"}, {"x": object()}])
+def test_a_record_that_could_not_be_read_again_is_a_crash_of_its_run_and_not_repeated(folder, commits, metrics):
+    run = ended("ab")
+    run.outcome.record.metrics = metrics
+    commits.add([run])
+    commits.close()
+    (record,) = Results(folder)
+    assert record["status"] == "crashed"
+    assert record["error"]["message"].startswith("the record of the run cannot be stored: ")
