@@ -54,7 +54,13 @@ def missing_planners():
 
 
 def test_every_study_is_known_here():
-    assert {file.stem for file in FOLDER.glob("*.yaml")} == {*RUNS_PER_PLANNER, "barn", "barn_dwa", "dynabarn", "movingai"}
+    assert {file.stem for file in FOLDER.glob("*.yaml")} == {
+        *RUNS_PER_PLANNER,
+        "barn",
+        "barn_dwa",
+        "dynabarn",
+        "movingai",
+    }
 
 
 def test_the_study_of_the_movingai_benchmark_finds_its_files_beside_it(shared_data, tmp_path):

@@ -342,10 +342,16 @@ class ExecutionLoop:
 def _reach(context: RunContext) -> NDArray[np.float64]:
     """Metres f8[n] that each robot can possibly move in one control period: twice what it can drive, and a contact.
 
-    A mover pushes a robot that it touches as fast as it moves.
+    A mover pushes a robot that it touches as fast as it moves, or out of its disc where it begins its track again.
     """
     pushed = 2 * PUSHED * context.period if context.movers else 0.0
-    return np.array([2 * robot.max_speed * context.period + pushed + 0.05 for robot in context.fleet.robots])
+    disc = max((mover.radius for mover in context.movers), default=-np.inf)
+    return np.array(
+        [
+            2 * robot.max_speed * context.period + max(pushed, disc + robot.radius, 0.0) + 0.05
+            for robot in context.fleet.robots
+        ]
+    )
 
 
 def _patience(inputs: LoopInputs) -> float:
