@@ -54,7 +54,13 @@ def missing_planners():
 
 
 def test_every_study_is_known_here():
-    assert {file.stem for file in FOLDER.glob("*.yaml")} == {*RUNS_PER_PLANNER, "barn", "movingai"}
+    assert {file.stem for file in FOLDER.glob("*.yaml")} == {
+        *RUNS_PER_PLANNER,
+        "barn",
+        "barn_dwa",
+        "dynabarn",
+        "movingai",
+    }
 
 
 def test_the_study_of_the_movingai_benchmark_finds_its_files_beside_it(shared_data, tmp_path):
@@ -67,14 +73,23 @@ def test_the_study_of_the_movingai_benchmark_finds_its_files_beside_it(shared_da
     )
 
 
-def test_the_study_of_the_barn_challenge_takes_its_tables_and_worlds_from_the_command(shared_data):
+def test_the_studies_of_the_barn_challenge_take_their_tables_and_worlds_from_the_command(shared_data):
     files = [
         f"world.{key}={shared_data / 'barn' / name}.csv.gz" for key, name in (("file", "cylinders"), ("path", "paths"))
     ]
-    study = load_study(FOLDER / "barn.yaml", [*files, "world.index=[0, 3]", "seed=0"])
+    for name, controllers in (("barn", ("graceful", "rpp", "dwb", "mppi")), ("barn_dwa", ("dwb",))):
+        study = load_study(FOLDER / f"{name}.yaml", [*files, "world.index=[0, 3]", "seed=0"])
+        assert not study.errors
+        local = Counter(point.canonical["controller"]["primary_controller"]["plugin"] for point in study.runs)
+        assert local == dict.fromkeys(controllers, 2)
+
+
+def test_the_study_of_the_dynabarn_challenge_takes_its_tables_from_the_command(shared_data):
+    tables = {"worlds": "dynabarn_worlds.csv", "keyframes": "dynabarn_keyframes.csv.gz"}
+    files = [f"crowds.{key}={shared_data / 'barn' / name}" for key, name in tables.items()]
+    study = load_study(FOLDER / "dynabarn.yaml", files)
     assert not study.errors
-    local = Counter(point.canonical["controller"]["primary_controller"]["plugin"] for point in study.runs)
-    assert local == {"graceful": 2, "rpp": 2, "dwb": 4, "mppi": 2}
+    assert len(study.runs) == 60 * 4 * 2
 
 
 @pytest.mark.parametrize("name", RUNS_PER_PLANNER)

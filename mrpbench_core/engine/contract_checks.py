@@ -84,8 +84,8 @@ class ContractChecks:
         self._cleared = np.maximum(self._cleared - cut, 0)
         self._motion = None
 
-    def state(self, state: State) -> State:
-        """Check the state that a simulator returns."""
+    def state(self, state: State, push: float = 0.0) -> State:
+        """Check the state that a simulator returns; movers may have pushed robots by `push` metres at once."""
         kind, before = "the simulator", self._before
         _require_class(kind, state, State)
         state = own(state, before)
@@ -102,7 +102,9 @@ class ContractChecks:
         if before is not None and not close:
             shift = state.pose - before.pose
             moved = np.hypot(shift[:, 0], shift[:, 1])
-            self._no_robot(kind, "a position that it cannot have reached in one control period", moved > self._reach)
+            self._no_robot(
+                kind, "a position that it cannot have reached in one control period", moved > self._reach + push
+            )
         self._before = state
         return state
 

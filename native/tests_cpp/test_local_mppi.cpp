@@ -200,13 +200,31 @@ TEST("sampled controls are the plan and noise, and velocities follow them within
     Tables out;
     out.resize(3, 1);
     const std::vector<float> vx{0, 0, 0.2f}, wz{0.1f, 0, 0.3f};
-    roll_out({its, vx, wz, start_vx, 6, change, 0.05f}, out);
+    roll_out({its, vx, wz, {}, {}, start_vx, 6, change, 0.05f}, out);
     return out;
   };
   const Tables slower = sampled(0.75f, 5), faster = sampled(-0.75f, -5);
   CHECK(near(slower.vx[1][0], 4.85) && near(slower.wz[1][0], 5.825));
   CHECK(near(faster.vx[1][0], -4.85));
   CHECK(near(slower.length[0], (5 + 4.85 + 4.7) * 0.05));
+}
+
+TEST("samples of a late drive begin with the commands on their way, and follow the controls after these") {
+  Noise none;
+  for (Table* it : {&none.vx, &none.wz}) it->resize(8, 1);
+  const std::vector<float> zero(8, 0.0f), vx{1, 2, 3, 4, 5, 6, 7, 8};
+  const auto rolled = [&](std::span<const float> controls, std::vector<float> sent_vx, std::vector<float> sent_wz) {
+    Tables out;
+    out.resize(8, 1);
+    roll_out({none, controls, zero, sent_vx, sent_wz, 0, 0, {1000, 1000, 1000}, 0.05f}, out);
+    return out;
+  };
+  const Tables late = rolled(zero, {9}, {7, 4}), soon = rolled(vx, {}, {});  // as in Nav2: 0.10 s and 0.15 s
+  CHECK(late.vx[0][0] == 0 && late.vx[1][0] == 9 && late.vx[2][0] == 0);
+  CHECK(late.wz[0][0] == 0 && late.wz[1][0] == 7 && late.wz[2][0] == 4 && late.wz[3][0] == 0);
+  CHECK(near(late.yaw[3][0], 11 * 0.05) && near(late.length[0], 9 * 0.05));
+  const Tables both = rolled(vx, {9, 9}, {});
+  for (std::size_t t = 3; t < 8; ++t) CHECK(both.vx[t][0] == soon.vx[t - 2][0]);
 }
 
 TEST("a plan keeps speeds and accelerations, the first step within a control period") {
@@ -228,7 +246,7 @@ TEST("samples roll out as by Euler's method with the yaw before each step") {
   Tables out;
   out.resize(50, 1);
   const std::vector<float> vx(50, 0.1f), wz(50, 0.2f);
-  roll_out({none, vx, wz, 0, 0, {1, 1, 1}, 0.1f}, out);
+  roll_out({none, vx, wz, {}, {}, 0, 0, {1, 1, 1}, 0.1f}, out);
   CHECK(near(out.x[49][0], 0.41745, 1e-5) && near(out.y[49][0], 0.21733, 1e-5) && near(out.yaw[49][0], 0.98));
 }
 

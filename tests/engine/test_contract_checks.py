@@ -76,6 +76,7 @@ def test_a_robot_may_move_as_far_as_it_can_in_any_direction(away):
     else:
         with pytest.raises(BrokenContractError, match="for robot 0: a position that it cannot have reached"):
             checked.state(moved)
+        assert checked.state(moved, push=0.1) == moved, "a mover may have pushed it"
 
 
 def test_progress_that_has_not_changed_is_the_same_array_and_a_change_in_place_is_noticed():

@@ -40,7 +40,7 @@ class Printed(StudyProgress):
         """Print the number of runs to execute."""
         for error in results.damaged:
             sys.stderr.write(f"{error}\n")
-        self._total = len(selection.todo)
+        self._total, self._counts, self._began = len(selection.todo), Counter(), time.monotonic()
         recorded = sum(run_id in results for run_id in selection.chosen)
         chosen = counted(len(selection.chosen), "run")
         print(f"{results.folder.path}: {self._total} of {chosen} to do, {recorded} recorded")

@@ -15,7 +15,7 @@ from mrpbench_core.engine.execution.faults import FaultEvent
 from mrpbench_core.engine.execution.gait import Gait
 from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
-from mrpbench_core.model.common.arrays import Float, Int16, Int32
+from mrpbench_core.model.common.arrays import Bool, Float, Int16, Int32
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.movers import JUMP, CrowdView, Mover, Movers
 from mrpbench_core.model.execution.state import Inputs, State
@@ -62,6 +62,9 @@ class Crowds:
         self._sessions: list[CrowdSession] = []
         self._first = np.zeros(1, int)
         self._radius = np.empty(0)
+        self._body = max((robot.radius for robot in fleet.robots), default=0.0)
+        self.push = 0.0
+        """Metres by which members that were put elsewhere in the last step may push robots out of their discs."""
         self.members: tuple[Mover, ...] = ()
         """By index: those of the first crowd, then those of the second."""
         self.movers = self._joined([])
@@ -99,7 +102,7 @@ class Crowds:
             return
         if self._unmet:
             state = attrs.evolve(state, level=np.full(len(state.level), -1, np.int16))
-        parts = [session.movers for session in self._sessions]
+        begin, parts = self.movers, [session.movers for session in self._sessions]
         for index, (first, last) in enumerate(pairwise(self._first)):
             before = self.movers
             rest = np.r_[0:first, last : len(self.members)]
@@ -108,10 +111,12 @@ class Crowds:
             parts[index] = self._sessions[index].step(self._period, seen)
             self.movers = self._joined(parts)
             self._check_step(before, self.movers)
+        _, moved = _way(begin, self.movers)
+        put = self._radius[~moved & (self.movers.level >= 0)]
+        self.push = float(put.max()) + self._body if put.size else 0.0
 
     def _check_step(self, before: Movers, now: Movers) -> None:
-        way = np.hypot(*(now.pose - before.pose)[:, :2].T)
-        moved = (way <= JUMP) & (now.level == before.level) & (now.level >= 0)
+        way, moved = _way(before, now)
         if (way > FASTEST * self._period + ROUNDING)[moved].any():
             _refuse(f"a member that moves {way[moved].max() / self._period:.1f} m/s; {FASTEST:g} m/s are the most")
         if (_arrivals(now) < _arrivals(before)).any():
@@ -178,6 +183,12 @@ def _exists(member: Any) -> bool:
     except TypeError:
         return False
     return sizes and isinstance(kind, str) and 0 < len(kind) <= LONGEST_KIND
+
+
+def _way(before: Movers, now: Movers) -> tuple[Float, Bool]:
+    """Metres f8[m] between two places of each member, and whether it moved bool[m]: it was not put elsewhere."""
+    way = np.hypot(*(now.pose - before.pose)[:, :2].T)
+    return way, (way <= JUMP) & (now.level == before.level) & (now.level >= 0)
 
 
 def _arrivals(movers: Movers) -> Int32:

@@ -342,7 +342,7 @@ class ExecutionLoop:
             commands = inputs.faults.held(commands, self._state.facilities)
             twist = inputs.faults.driven(twist)
         driven = Inputs(twist=twist, facilities=commands)
-        self._state = self._checks.state(inputs.simulation.step(inputs.crowds.inputs(driven)))
+        self._state = self._checks.state(inputs.simulation.step(inputs.crowds.inputs(driven)), inputs.crowds.push)
         self._step += 1
         self._now = self._step * inputs.context.period
         inputs.recorder.contacts(self._now, self._state)

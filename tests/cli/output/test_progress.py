@@ -35,6 +35,17 @@ def test_a_terminal_has_one_line_of_counts_and_a_line_for_each_failure(capsys, m
     assert output.endswith("\r\x1b[K")
 
 
+def test_each_study_of_a_command_is_counted_from_one(capsys):
+    shown = Printed(live=False)
+    point = types.SimpleNamespace(run_id="0" * 16, axes={})
+    results = type("NoResults", (dict,), {"damaged": (), "folder": types.SimpleNamespace(path=Path("out"))})()
+    for _ in range(2):
+        shown.selected(types.SimpleNamespace(todo=[point], chosen=(point.run_id,), changed=()), results)
+        shown.started(point)
+        shown.finished(point, {"run_id": point.run_id, "status": "succeeded"})
+    assert capsys.readouterr().out.count("[1/1] 000000000000 succeeded") == 2
+
+
 def test_the_live_line_does_not_wrap(capsys, monkeypatch):
     monkeypatch.setattr(progress, "REFRESH_S", 0.0)
     monkeypatch.setenv("COLUMNS", "40")

@@ -71,6 +71,15 @@ class Looking(Asking):
         return AskingSession(self)
 
 
+def test_a_member_that_is_put_elsewhere_may_push_a_robot_out_of_its_disc():
+    walks, jumps = start(Asking(speed=1.0)), start(Asking(speed=1.1 / PERIOD))
+    for crowds in (walks, jumps):
+        assert crowds.push == 0.0
+        crowds.step(STATE)
+    assert walks.push == 0.0
+    assert jumps.push == pytest.approx(0.1 + fleet(1).robots[0].radius)
+
+
 def test_a_crowd_sees_where_robots_and_the_crowds_before_it_begin():
     looking = Looking()
     start(ONE, looking, TWO)

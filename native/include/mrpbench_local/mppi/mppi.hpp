@@ -18,7 +18,7 @@ struct MppiOptions {
   double prune_distance = 2, collision_lookahead_time = 2;
   bool open_loop = false, regenerate_noises = false, clamp_raw_controls = false, roll_noises = true;
   double path_spacing = 0, rotate_to_path = 0.4;
-  double min_turning_r = 0;
+  double min_turning_r = 0, model_delay_vx = 0, model_delay_wz = 0;
   double period = 0.05;
 
   static Description<MppiOptions> nav2();
@@ -42,6 +42,9 @@ class Mppi : public Controller {
   Explanation explain() const override;
 
  private:
+  std::size_t periods(std::size_t steps) const;
+  void recall(double Twist::* axis, std::vector<float>& sent) const;
+  std::optional<Twist> decide(const Situation& now, const Extra& extra);
   void draw();
   void reset();
   void prepare(const Situation& now);
@@ -78,6 +81,10 @@ class Mppi : public Controller {
   /// The plan around which samples were drawn last.
   std::vector<float> centre_vx_, centre_wz_;
   std::array<float, 4> past_vx_{}, past_wz_{};
+  /// Commands that the drive executes later: in the order in which they were given, and as velocities of the first
+  /// steps.
+  std::vector<Twist> given_;
+  std::vector<float> sent_vx_, sent_wz_;
   std::optional<Pose> goal_;
   RotateToPath rotate_;
   const char* fault_ = "";

@@ -22,10 +22,11 @@ struct Noise {
 };
 
 /// What samples follow from: controls are `vx`, `wz` of each step plus noise; velocities begin at the start and follow
-/// the controls of the step before within `change`.
+/// the controls of the step before within `change`. Where the drive is late, they have the velocities `sent_vx`,
+/// `sent_wz` of commands on their way in the next steps, and follow the controls after these, from the start.
 struct Sampling {
   const Noise& noise;
-  std::span<const float> vx, wz;
+  std::span<const float> vx, wz, sent_vx, sent_wz;
   float start_vx = 0, start_wz = 0;
   Change change;
   float dt = 0.05f;

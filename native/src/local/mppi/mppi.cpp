@@ -46,6 +46,13 @@ Mppi::Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key,
   batch_.by_radius = robot.by_radius;
   plan_vx_.assign(steps, 0);
   plan_wz_.assign(steps, 0);
+  for (const auto& [delay, sent] :
+       {std::pair{options.model_delay_vx, &sent_vx_}, {options.model_delay_wz, &sent_wz_}}) {
+    const double late = std::round(delay / options.model_dt);
+    require(late < static_cast<double>(steps), "a delay must be shorter than the samples, time_steps * model_dt");
+    sent->assign(static_cast<std::size_t>(std::max(late, 1.0)) - 1, 0);  // the first step is one late already
+  }
+  given_.assign(periods(std::max(sent_vx_.size(), sent_wz_.size())), {});
   total_.assign(samples, 0);
   raw_.assign(samples * critics_.size(), 0);
 }
@@ -69,6 +76,29 @@ void Mppi::reset() {
 }
 
 std::optional<Twist> Mppi::command(const Situation& now, const Extra& extra) {
+  recall(&Twist::ahead, sent_vx_);
+  recall(&Twist::turn, sent_wz_);
+  const std::optional<Twist> found = decide(now, extra);
+  if (!given_.empty()) {
+    std::rotate(given_.begin(), given_.begin() + 1, given_.end());
+    given_.back() = found.value_or(Twist{});
+  }
+  return found;
+}
+
+/// The control periods in which so many steps pass.
+std::size_t Mppi::periods(std::size_t steps) const {
+  return static_cast<std::size_t>(std::round(static_cast<double>(steps) * options_.model_dt / options_.period));
+}
+
+/// Fill the commands of one axis on their way: the one that takes effect last was given one step ago.
+void Mppi::recall(double Twist::* axis, std::vector<float>& sent) const {
+  for (std::size_t j = 0; j < sent.size(); ++j) {
+    sent[j] = static_cast<float>(given_[given_.size() - periods(sent.size() - j)].*axis);
+  }
+}
+
+std::optional<Twist> Mppi::decide(const Situation& now, const Extra& extra) {
   fault_ = "";
   scored_ = false;
   const Point end = now.path.end();
@@ -151,15 +181,20 @@ void Mppi::sample(Batch& batch) const {
   const float dt = batch.dt;
   const Change change{static_cast<float>(options_.ax_max) * dt, static_cast<float>(-options_.ax_min) * dt,
                       static_cast<float>(options_.az_max) * dt};
-  roll_out(
-      {noise_, centre_vx_, centre_wz_, static_cast<float>(start_.ahead), static_cast<float>(start_.turn), change, dt},
-      batch);
+  roll_out({noise_, centre_vx_, centre_wz_, sent_vx_, sent_wz_, static_cast<float>(start_.ahead),
+            static_cast<float>(start_.turn), change, dt},
+           batch);
 }
 
 /// The controls of one step: the velocities that follow them if these are to be within the accelerations, too.
 std::pair<Controls, Controls> Mppi::controls(std::size_t t) const {
-  if (options_.clamp_raw_controls && t + 1 < batch_.steps()) return {{0, batch_.vx[t + 1]}, {0, batch_.wz[t + 1]}};
-  return {{centre_vx_[t], noise_.vx_of(t)}, {centre_wz_[t], noise_.wz_of(t)}};
+  const auto of = [&](const Table& velocities, std::size_t late, float centre, const float* noise) -> Controls {
+    const std::size_t at = t + 1 + late;
+    if (options_.clamp_raw_controls && at < batch_.steps()) return {0, velocities[at]};
+    return {centre, noise};
+  };
+  return {of(batch_.vx, sent_vx_.size(), centre_vx_[t], noise_.vx_of(t)),
+          of(batch_.wz, sent_wz_.size(), centre_wz_[t], noise_.wz_of(t))};
 }
 
 /// One update of the plan. Returns false if every sample collides.

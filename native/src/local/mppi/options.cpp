@@ -28,6 +28,10 @@ Description<MppiOptions> MppiOptions::nav2() {
           {"clamp_raw_controls", &M::clamp_raw_controls, "limit sampled controls by the accelerations, too"},
           {"min_turning_r", &M::min_turning_r, at_least(0, "m"),
            "smallest radius of turns, of Ackermann steering; 0 = the robot turns on the spot"},
+          {"model_delay_vx", &M::model_delay_vx, at_least(0, "s"),
+           "samples begin with the speeds that were commanded so long ago"},
+          {"model_delay_wz", &M::model_delay_wz, at_least(0, "s"),
+           "samples begin with the turn rates that were commanded so long ago"},
           {"sgf_order", &M::sgf_order, within(1, 2), "order of the filter that smooths the controls"},
           {"collision_lookahead_time", &M::collision_lookahead_time, above(0, "s"),
            "check the command for collisions up to this time"}};

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <vector>
 
 #include "mrpbench_local/wide.hpp"
 
@@ -33,34 +35,49 @@ void fetch(const float* row, std::size_t count) {
   for (std::size_t k = 0; k < count; k += line) __builtin_prefetch(row + k);
 }
 
-/// The velocities of step t, which follow the controls of the step before, and the poses, by Euler's method with the
-/// yaw before the step.
-MRPBENCH_WIDE void take_step(std::size_t t, const Sampling& by, Tables& out) {
+/// How one axis gets to the velocities of a step: from those of a step before, by at most `up` and `down` (for speeds
+/// below zero the other way round), to a control and its noise.
+struct Follow {
+  float centre = 0;
+  const float *noise = nullptr, *from = nullptr;
+  float up = 0, down = 0;
+};
+
+/// A command on its way decides its step, whatever the drive did before. The first control counts from the start.
+Follow followed(std::size_t t, std::span<const float> sent, std::span<const float> centre, const Table& noise,
+                std::size_t first, const Table& velocities, Follow within) {
+  constexpr float any = std::numeric_limits<float>::infinity();
+  if (t <= sent.size()) return {sent[t - 1], within.noise, velocities[0], any, any};
+  const std::size_t control = t - 1 - sent.size();
+  within.centre = centre[control];
+  within.noise = noise[(control + first) % noise.steps];
+  within.from = velocities[control == 0 ? 0 : t - 1];
+  return within;
+}
+
+/// The velocities and poses of step t, by Euler's method with the yaw before the step.
+MRPBENCH_WIDE void take_step(std::size_t t, Follow ahead, Follow turn, float dt, Tables& out) {
   const std::size_t count = out.length.size();
-  const float *const noise_vx = by.noise.vx_of(t - 1), *const noise_wz = by.noise.wz_of(t - 1);
-  const float centre_vx = by.vx[t - 1], centre_wz = by.wz[t - 1], dt = by.dt;
-  const Change change = by.change;
-  const float *const from_vx = out.vx[t - 1], *const from_wz = out.wz[t - 1];
   const float *const from_x = out.x[t - 1], *const from_y = out.y[t - 1], *const from_yaw = out.yaw[t - 1];
   float *const vx = out.vx[t], *const wz = out.wz[t], *const x = out.x[t], *const y = out.y[t], *const yaw = out.yaw[t];
   float* const length = out.length.data();
   MRPBENCH_NO_OVERLAP
   for (std::size_t k = 0; k < count; ++k) {
-    const float wanted_vx = centre_vx + noise_vx[k], wanted_wz = centre_wz + noise_wz[k];
-    const bool forward = from_vx[k] > 0;
-    const float up = forward ? change.speed_up : change.slow_down;
-    const float down = forward ? change.slow_down : change.speed_up;
-    const float ahead = std::min(std::max(wanted_vx, from_vx[k] - down), from_vx[k] + up);
-    const float turn = std::min(std::max(wanted_wz, from_wz[k] - change.turn), from_wz[k] + change.turn);
-    vx[k] = ahead;
-    wz[k] = turn;
+    const float wanted_vx = ahead.centre + ahead.noise[k], wanted_wz = turn.centre + turn.noise[k];
+    const bool forward = ahead.from[k] > 0;
+    const float up = forward ? ahead.up : ahead.down;
+    const float down = forward ? ahead.down : ahead.up;
+    const float speed = std::min(std::max(wanted_vx, ahead.from[k] - down), ahead.from[k] + up);
+    const float rate = std::min(std::max(wanted_wz, turn.from[k] - turn.down), turn.from[k] + turn.up);
+    vx[k] = speed;
+    wz[k] = rate;
     float sine, cosine;
     sine_cosine(from_yaw[k], sine, cosine);
-    const float step = ahead * dt;
+    const float step = speed * dt;
     x[k] = from_x[k] + step * cosine;
     y[k] = from_y[k] + step * sine;
-    yaw[k] = from_yaw[k] + turn * dt;
-    length[k] += std::abs(ahead) * dt;
+    yaw[k] = from_yaw[k] + rate * dt;
+    length[k] += std::abs(speed) * dt;
   }
 }
 
@@ -75,10 +92,14 @@ void roll_out(const Sampling& by, Tables& out) {
   fill(out.y[0], 0);
   fill(out.yaw[0], by.start_wz * by.dt);
   fill(out.length.data(), std::abs(by.start_vx) * by.dt);
+  const std::vector<float> none(by.sent_vx.empty() && by.sent_wz.empty() ? 0 : count);
+  const Follow ahead{0, none.data(), nullptr, by.change.speed_up, by.change.slow_down};
+  const Follow turn{0, none.data(), nullptr, by.change.turn, by.change.turn};
   for (std::size_t t = 1; t < steps; ++t) {
     fetch(by.noise.vx_of(t), count);
     fetch(by.noise.wz_of(t), count);
-    take_step(t, by, out);
+    take_step(t, followed(t, by.sent_vx, by.vx, by.noise.vx, by.noise.first, out.vx, ahead),
+              followed(t, by.sent_wz, by.wz, by.noise.wz, by.noise.first, out.wz, turn), by.dt, out);
   }
 }
 

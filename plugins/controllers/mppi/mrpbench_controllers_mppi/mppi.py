@@ -31,7 +31,7 @@ class Mppi(LocalController):
         *("visualize", "TrajectoryVisualizer", "publish_critics_stats", "publish_optimal_trajectory", "Visualization"),
         *("transform_tolerance", "max_robot_pose_search_dist", "reset_period", "vy_std", "vy_max", "ay_max", "ay_min"),
         *("enforce_path_inversion", "inversion_xy_tolerance", "inversion_yaw_tolerance"),
-        *("minimum_rotation_angle", "advanced", "TrajectoryValidator"),
+        *("minimum_rotation_angle", "advanced", "TrajectoryValidator", "model_delay_vy"),
     )
 
     critics: tuple[MppiCritic, ...] | None = option(
@@ -56,9 +56,6 @@ class Mppi(LocalController):
             raise block.error("must be above 0", "AckermannConstraints.min_turning_r")
         if model == "Ackermann" and attrs.asdict(self, recurse=False)["min_turning_r"] is None:
             values["min_turning_r"] = radius
-        for name in ("model_delay_vx", "model_delay_vy", "model_delay_wz"):
-            if block.take(name, float, 0.0):
-                raise block.error("must be 0, delays are not modelled", name)
         return values
 
     def limits(self, values: dict[str, Any], robot: RobotModel, period: float) -> dict[str, Any]:

@@ -166,5 +166,24 @@ def test_a_nav2_file_is_read():
         Mppi(FollowPath={"motion_model": "Omni"})
     with pytest.raises(InputError, match="there is no critic 'CostCrtic'"):
         Mppi(FollowPath={"critics": ["CostCrtic"]})
-    with pytest.raises(InputError, match="must be 0, delays are not modelled"):
-        Mppi(FollowPath={"model_delay_vx": 0.1})
+
+
+@pytest.mark.parametrize("period", [PERIOD, PERIOD / 2])
+def test_samples_begin_with_the_commands_that_a_late_drive_has_yet_to_execute(period):
+    block = {"model_delay_vx": 0.25, "model_delay_vy": 0.1, "model_delay_wz": 0.35}
+    session = Mppi(FollowPath=block, batch_size=10).start_fleet((SPRINTER,), NOWHERE, period)
+    given = np.zeros((20, 2))
+    for step in range(20):
+        scene = seen([(0.0, 0.0), (4.0, 1.0)], twist=tuple(given[step - 1]), now=step * period)
+        given[step] = session.command(scene)[0]
+    speed, rate = (session.explain(0)["twist"][:, :3, axis] for axis in (0, 1))  # of steps 0, 3, 6
+    before = given[-1 :: -round(PERIOD / period)]  # the commands 0, 1, … steps ago
+    assert len(np.unique(before[:5], axis=0)) == 5
+    assert (speed[:, 1] == before[5 - 3, 0]).all()
+    assert (rate[:, 1:] == before[[7 - 3, 7 - 6], 1]).all()
+    assert (speed[:, 2] != speed[0, 2]).any()
+
+
+def test_a_delay_as_long_as_the_samples_is_refused():
+    with pytest.raises((InputError, ValueError), match="a delay must be shorter than the samples"):
+        Mppi(model_delay_wz=2.8).start_fleet((SPRINTER,), NOWHERE, PERIOD)
