@@ -15,7 +15,7 @@ from mrpbench_core.engine.execution.faults import FaultEvent
 from mrpbench_core.engine.execution.gait import Gait
 from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
-from mrpbench_core.model.common.arrays import Bool, Float, Int16, Int32
+from mrpbench_core.model.common.arrays import Float, Int16, Int32
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.movers import JUMP, CrowdView, Mover, Movers
 from mrpbench_core.model.execution.state import Inputs, State
@@ -23,7 +23,7 @@ from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.world import World
 
 FASTEST = 5.0
-"""m/s at which members may move, and push a robot."""
+"""m/s at which a member moves at most, and pushes a robot; one that is farther away was put there."""
 LARGEST_RADIUS = 10.0
 """Metres of a member."""
 LONGEST_KIND = 64
@@ -64,7 +64,7 @@ class Crowds:
         self._radius = np.empty(0)
         self._body = max((robot.radius for robot in fleet.robots), default=0.0)
         self.push = 0.0
-        """Metres by which members that were put elsewhere in the last step may push robots out of their discs."""
+        """Metres by which a member may push a robot in the last step beyond what those do that walk or run."""
         self.members: tuple[Mover, ...] = ()
         """By index: those of the first crowd, then those of the second."""
         self.movers = self._joined([])
@@ -111,14 +111,16 @@ class Crowds:
             parts[index] = self._sessions[index].step(self._period, seen)
             self.movers = self._joined(parts)
             self._check_step(before, self.movers)
-        _, moved = _way(begin, self.movers)
-        put = self._radius[~moved & (self.movers.level >= 0)]
-        self.push = float(put.max()) + self._body if put.size else 0.0
+        self.push = float(self._pushes(begin).max(initial=0.0))
+
+    def _pushes(self, before: Movers) -> Float:
+        """Metres by which each member that is elsewhere than it can run may push a robot: along and out of its disc."""
+        way = np.hypot(*(self.movers.pose - before.pose)[:, :2].T)
+        put = (way > FASTEST * self._period + ROUNDING) | (self.movers.level != before.level)
+        reach = np.where(way <= JUMP, way, 0.0) + self._radius + self._body
+        return np.where(put & (self.movers.level >= 0), reach, 0.0)
 
     def _check_step(self, before: Movers, now: Movers) -> None:
-        way, moved = _way(before, now)
-        if (way > FASTEST * self._period + ROUNDING)[moved].any():
-            _refuse(f"a member that moves {way[moved].max() / self._period:.1f} m/s; {FASTEST:g} m/s are the most")
         if (_arrivals(now) < _arrivals(before)).any():
             _refuse("fewer goals that a member has reached than before")
 
@@ -183,12 +185,6 @@ def _exists(member: Any) -> bool:
     except TypeError:
         return False
     return sizes and isinstance(kind, str) and 0 < len(kind) <= LONGEST_KIND
-
-
-def _way(before: Movers, now: Movers) -> tuple[Float, Bool]:
-    """Metres f8[m] between two places of each member, and whether it moved bool[m]: it was not put elsewhere."""
-    way = np.hypot(*(now.pose - before.pose)[:, :2].T)
-    return way, (way <= JUMP) & (now.level == before.level) & (now.level >= 0)
 
 
 def _arrivals(movers: Movers) -> Int32:

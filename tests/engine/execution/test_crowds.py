@@ -72,12 +72,13 @@ class Looking(Asking):
 
 
 def test_a_member_that_is_put_elsewhere_may_push_a_robot_out_of_its_disc():
-    walks, jumps = start(Asking(speed=1.0)), start(Asking(speed=1.1 / PERIOD))
-    for crowds in (walks, jumps):
+    walks, jumps, leaps = (start(Asking(speed=metres / PERIOD)) for metres in (4.9 * PERIOD, 0.9, 1.1))
+    for crowds in (walks, jumps, leaps):
         assert crowds.push == 0.0
         crowds.step(STATE)
     assert walks.push == 0.0
-    assert jumps.push == pytest.approx(0.1 + fleet(1).robots[0].radius)
+    assert jumps.push == pytest.approx(0.9 + 0.1 + fleet(1).robots[0].radius)
+    assert leaps.push == pytest.approx(0.1 + fleet(1).robots[0].radius)
 
 
 def test_a_crowd_sees_where_robots_and_the_crowds_before_it_begin():
@@ -117,7 +118,6 @@ def test_doors_open_while_members_want_them_and_close_again():
         (Asking(place=np.nan), "not finite"),
         (Asking(place=1e10), "too large"),
         (Asking(doors=("gate",)), "gate"),
-        (Asking(speed=5.1), r"a member that moves 5\.1 m/s; 5 m/s are the most"),
         (Asking(arrivals=(-2, 0)), "arrivals that are not"),
         (Asking(arrivals=(2, 1)), "fewer goals that a member has reached"),
         (Asking(mover=Mover(radius=np.inf)), "the member Mover"),
