@@ -158,7 +158,8 @@ def _origin(joint: ET.Element, file: Path) -> Float:
 
 
 def _radius(robot: ET.Element, link: str, file: Path) -> float | None:
-    for shape in robot.iterfind(f"link[@name='{link}']/collision/geometry/*"):
+    named = (it for it in robot.iterfind("link") if it.get("name") == link)  # no predicate takes all names
+    for shape in (shape for it in named for shape in it.iterfind("collision/geometry/*")):
         if shape.tag in ("sphere", "cylinder"):
             return float(_numbers(shape, "radius", (0.0,), file)[0])
     return None

@@ -47,6 +47,11 @@ def test_mass_and_wheels_are_those_of_the_urdf(tmp_path):
     assert (robot.urdf.file, robot.urdf.wheels) == (str(tmp_path / "cart.urdf"), ("left", "right"))
 
 
+def test_names_of_links_may_have_quotes_and_brackets(tmp_path):
+    robot = load(tmp_path, URDF.replace("left_wheel", "left'][wheel"))
+    assert (robot.mass, robot.wheel_radius) == (10, 0.1)
+
+
 @pytest.mark.parametrize("turn", [0.3, -1.2, math.pi])
 def test_fixed_joints_on_the_way_to_a_wheel_are_followed_with_their_turns(tmp_path, turn):
     """An axle that is turned about x and y stays where it is when its wheels' own frames undo the turn."""

@@ -119,7 +119,9 @@ class Supervision:
         """Read what the job says; return its answer."""
         try:
             while self._closing is None and (message := self._channel.receive(0)) is not None:
-                self._forked = True
+                if not self._forked:  # the server's imports are over, whether or not its messages were read
+                    self._forked = True
+                    self._monitor.importing(None)
                 if (answer := self._take(message)) is not None:
                     return answer
         except (GarbledError, KeyError, TypeError, ValueError) as error:
@@ -158,9 +160,10 @@ class Supervision:
             return None, False
         if message is None:
             return None, True
-        if "importing" in message:
+        if "importing" not in message:
+            self._forked = True
+        elif not self._forked:
             self._monitor.importing(message["importing"])
-        self._forked = self._forked or "importing" not in message
         return message.get("ended"), True
 
     def _exceeded(self) -> Message | None:
