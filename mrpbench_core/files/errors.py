@@ -40,9 +40,9 @@ class InputError(Exception):
         super().__init__(str(self))
 
     def __str__(self) -> str:
-        parts = [str(part).replace("\n", r"\n") for part in (self.file, self.line, self.column) if part is not None]
+        parts = [str(part) for part in (self.file, self.line, self.column) if part is not None]
         where = ":".join(parts) + ": " if parts else ""
-        return escaped(where + self.message + (f" ({self.hint})" if self.hint else ""))
+        return escaped(where + self.message + (f" ({self.hint})" if self.hint else "")).replace("\n", r"\n")
 
 
 class InputErrors(Exception):  # noqa: N818 - it is several of them
