@@ -1,6 +1,5 @@
 """Configurations of runs from plain data, in processes that did not read the study."""
 
-import marshal
 import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
@@ -14,6 +13,7 @@ from mrpbench_core.config.content import content_hash
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.structure import Structure, structure
 from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.model.common.plain import plain_bytes
 
 Unpack = Callable[[Mapping[str, Any]], RunConfig]
 """Returns the configuration of a `RunData.parcel`; see `unpack`."""
@@ -38,7 +38,7 @@ class Unpacking:
             InputErrors: see `unpack`.
         """
         self._origin = first["folder"], first["sources"]
-        self._plain = {key: _bytes(value) for key, value in first["config"].items()}
+        self._plain = {key: plain_bytes(value) for key, value in first["config"].items()}
         self._files = [
             (Path(os.path.normpath(Path(first["folder"], name))), sha256) for name, sha256 in _files(first["config"])
         ]
@@ -49,16 +49,11 @@ class Unpacking:
         """Return the configuration of a parcel; see `unpack`. Only the settings that differ are structured."""
         plain = parcel["config"]
         if (parcel["folder"], parcel["sources"]) == self._origin and self._plain.keys() == plain.keys():
-            changed = {key: value for key, value in plain.items() if self._plain[key] != _bytes(value)}
+            changed = {key: value for key, value in plain.items() if self._plain[key] != plain_bytes(value)}
             with suppress(InputErrors, InputError, ValueError, TypeError):  # then `unpack` says what is wrong
                 if all(content_hash(file) == sha256 for file, sha256 in self._files):
                     return attrs.evolve(self.config, **self._structure.settings(changed))
         return unpack(parcel)
-
-
-def _bytes(value: Any) -> bytes:
-    """Plain data for comparisons, in which 1, 1.0 and true differ; quicker than JSON, in every run."""
-    return marshal.dumps(value, 2)  # later formats depend on how often an object is used
 
 
 def _files(value: Any) -> Iterator[tuple[str, str]]:

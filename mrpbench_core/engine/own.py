@@ -19,6 +19,7 @@ import numpy as np
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.model.common.arrays import ARRAY, read_only
+from mrpbench_core.model.common.plain import plain_bytes
 from mrpbench_core.plugins.kinds import kind_of
 
 T = TypeVar("T")
@@ -74,7 +75,7 @@ def _own(value: Any, known: _Copies) -> Any:
         return value
     if kind is tuple:
         if _holds_numbers(value):
-            return marshal.loads(_bytes(value))  # noqa: S302 - what was dumped just now
+            return marshal.loads(plain_bytes(value))  # noqa: S302 - what was dumped just now
         return tuple([_own(item, known) for item in value])
     if kind is dict:
         return {key: _own(item, known) for key, item in value.items()}
@@ -91,10 +92,6 @@ def _holds_numbers(value: tuple[Any, ...]) -> bool:
     while items and set(map(type, items)) == {tuple}:
         items = [*chain.from_iterable(items)]
     return _NUMBERS.issuperset(map(type, items))
-
-
-def _bytes(numbers: tuple[Any, ...]) -> bytes:
-    return marshal.dumps(numbers, 2)  # later versions depend on how often an object is referred to
 
 
 def _own_other(value: Any, known: _Copies) -> Any:
@@ -201,7 +198,7 @@ def difference(given: Any, kept: Any, name: str) -> str | None:
     if kind is not tuple and _is_object(kind):
         return _difference_in_fields(given, kept, name)
     if kind is tuple and _holds_numbers(kept) and _holds_numbers(given):
-        return None if _bytes(given) == _bytes(kept) else name
+        return None if plain_bytes(given) == plain_bytes(kept) else name
     if isinstance(kept, tuple | list):
         if len(given) != len(kept):
             return name

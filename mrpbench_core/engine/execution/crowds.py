@@ -110,7 +110,8 @@ class Crowds:
             seen = CrowdView(state=own(state), others=others, radius=self._radius[rest])
             parts[index] = self._sessions[index].step(self._period, seen)
             self.movers = self._joined(parts)
-            self._check_step(before, self.movers)
+        if (_arrivals(self.movers) < _arrivals(begin)).any():
+            _refuse("fewer goals that a member has reached than before")
         self.push = float(self._pushes(begin).max(initial=0.0))
 
     def _pushes(self, before: Movers) -> Float:
@@ -119,10 +120,6 @@ class Crowds:
         put = (way > FASTEST * self._period + ROUNDING) | (self.movers.level != before.level)
         reach = np.where(way <= JUMP, way, 0.0) + self._radius + self._body
         return np.where(put & (self.movers.level >= 0), reach, 0.0)
-
-    def _check_step(self, before: Movers, now: Movers) -> None:
-        if (_arrivals(now) < _arrivals(before)).any():
-            _refuse("fewer goals that a member has reached than before")
 
     def doors(self, state: State, commands: Mapping[str, float]) -> dict[str, float]:
         """Return `commands` to facilities with the doors that members want to be open, or no longer want."""
