@@ -31,7 +31,7 @@ class DispatcherSession(ABC):
 
     def waits_for(self, robot: int) -> Sequence[int] | None:  # noqa: ARG002 - for those that know
         """Return the robots that have to pass before the next move of `robot` is released, as far as the session knows;
-        None = those that come first in the plan.
+        None = those that pass before it in the plan.
 
         Called where an execution ends before all robots have arrived, to explain why.
         """

@@ -14,13 +14,14 @@ from mrpbench_core.engine.execution.arrivals import REST, Arrivals
 from mrpbench_core.engine.execution.crowds import FASTEST
 from mrpbench_core.engine.execution.cutting import DrivenSegments, shifted
 from mrpbench_core.engine.execution.destinations import heads
+from mrpbench_core.engine.execution.ending import Ending
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
 from mrpbench_core.engine.execution.loop_inputs import ExecutionResult, LoopInputs
 from mrpbench_core.engine.execution.observed_controller import observed
 from mrpbench_core.engine.execution.reactions import Reactions
 from mrpbench_core.engine.execution.recorder import Sample
 from mrpbench_core.engine.execution.replanning import Revision
-from mrpbench_core.engine.execution.standstill import Ending, Standstill
+from mrpbench_core.engine.execution.standstill import Standstill
 from mrpbench_core.engine.execution.visits import Visits
 from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
@@ -298,7 +299,7 @@ class ExecutionLoop:
             gave_up={robot: self._causes.get(robot, "") for robot in gave_up},
             given_up=set(np.flatnonzero(self._reactions.given_up).tolist()),
             cut_off=set(np.flatnonzero(self._reactions.cut_off).tolist()),
-            come_first=lambda robot: self._checks.waits_for(self._dispatcher.waits_for(robot)),
+            dispatcher_waits_for=lambda robot: self._checks.waits_for(self._dispatcher.waits_for(robot)),
         ).reasons()
 
     def _record(self, observation: FleetObservation, last: bool) -> None:

@@ -20,10 +20,11 @@ import numpy as np
 
 from mrpbench_core.config.faults import Faults
 from mrpbench_core.engine.execution.delays import DelayStream
+from mrpbench_core.engine.execution.ending import Ending
 from mrpbench_core.engine.execution.faults import FaultState
 from mrpbench_core.engine.execution.recorder import Recorder, Sample
 from mrpbench_core.engine.execution.schedule import Schedule
-from mrpbench_core.engine.execution.standstill import Ending, Standstill
+from mrpbench_core.engine.execution.standstill import Standstill
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32, frozen_array
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.orders import FleetView, Orders
@@ -149,7 +150,7 @@ class ScheduleLoop:
             holders=self._resources.holders,
             arrived=arrived,
             gave_up={},
-            come_first=lambda robot: self._checks.waits_for(self._session.waits_for(robot)),
+            dispatcher_waits_for=lambda robot: self._checks.waits_for(self._session.waits_for(robot)),
         )
 
     def _speed(self) -> Float:

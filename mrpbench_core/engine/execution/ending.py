@@ -1,0 +1,140 @@
+"""Says why each robot did not arrive in an execution with a lasting fault."""
+
+import math
+from collections.abc import Callable, Collection, Mapping, Sequence
+
+import attrs
+import numpy as np
+
+from mrpbench_core.engine.execution.faults import FaultState, approaches
+from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.common.geometry import point_segment_distance
+from mrpbench_core.model.execution.motion import Motion
+from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.planning.dependencies import Dependencies
+from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.problem import Problem
+
+
+@attrs.frozen(kw_only=True)
+class Ending:
+    """The fleet at the end of an execution, of which `reasons` explains why robots did not arrive."""
+
+    problem: Problem
+    plan: Plan
+    """In force."""
+    names: Sequence[str]
+    faults: FaultState
+    orders: Orders
+    motion: Motion
+    pose: Float
+    """f8[n,3] true."""
+    granted: Collection[tuple[int, str]]
+    """(robot, resource) pairs that robots may use."""
+    holders: Mapping[str, Sequence[int]]
+    """Robots that hold each resource."""
+    arrived: Bool
+    """bool[n]."""
+    gave_up: Mapping[int, str]
+    """Why robots gave up."""
+    given_up: Collection[int] = ()
+    """Robots whose tasks are given up."""
+    cut_off: Collection[int] = ()
+    """Robots to whose goals no way is left."""
+    dispatcher_waits_for: Callable[[int], Sequence[int] | None]
+    """Of the session; see `mrpbench_core.api.dispatcher`."""
+    dependencies: Dependencies = attrs.field(
+        default=attrs.Factory(lambda self: Dependencies(self.problem, self.plan), takes_self=True)
+    )
+    """Of the plan."""
+
+    def reasons(self) -> dict[int, str]:
+        """Return the reason for each robot that did not arrive: its own, or the robot for which it waits."""
+        missing = np.flatnonzero(~self.arrived).tolist()
+        own = {robot: text for robot in range(len(self.names)) if (text := self._own(robot))}
+        waits = {robot: self._waits_for(robot) for robot in missing if robot not in own}
+        return {robot: own.get(robot) or self._chain(robot, waits, own) for robot in missing}
+
+    def _own(self, robot: int) -> str:
+        """Why a robot does not go on, whatever the others do; "" = nothing keeps it."""
+        if fault := self.faults.of_robot(robot):
+            for_good = " for good" if math.isinf(fault.end) else ""
+            what = "stopped" if fault.kind == "stop" else "became silent"
+            text = f"{what}{for_good} at {fault.begin:.1f} s"
+            return f"{text} and {self._failure(robot)}" if robot in self.gave_up and not for_good else text
+        if robot in self.given_up:
+            return "stopped, and its task was given up"
+        if robot in self.gave_up:
+            return self._failure(robot)
+        if robot in self.cut_off:
+            obstacles = [
+                f"{self.names[event.robot]} " * (event.robot >= 0) + event.what for event in self.faults.obstacles
+            ]
+            return f"has no way left to its goal: {' and '.join(obstacles)}"
+        for other, name in self.orders.requests:
+            if other == robot and (robot, name) not in self.granted and name in self.faults.broken:
+                return f"waits for {name}, which is out of order"
+        ends = self._next_move(robot)
+        for blockage in self.faults.blockages:
+            if ends is None:
+                break
+            reach = self.problem.radius[[robot]] + blockage.radius
+            here, tail = np.array(blockage.place), np.array([self.pose[robot, :2]])
+            if approaches(here, tail, ends[1:], reach)[0]:
+                return f"stands before {blockage.what.removeprefix('the ')}"
+        return ""
+
+    def _failure(self, robot: int) -> str:
+        return f"gave up: {self.gave_up[robot]}".removesuffix(": ")
+
+    def _chain(self, robot: int, waits: Mapping[int, list[int]], own: Mapping[int, str]) -> str:
+        """The robot for which one waits, and the one at the end of the chain; a breadth-first search."""
+        names, came_from = self.names, {robot: robot}
+        queue = [robot]
+        for here in queue:
+            if here in own:
+                first = here
+                while came_from[first] != robot:
+                    first = came_from[first]
+                through = "" if first == here else f"{names[first]}, and so for "
+                return f"waits for {through}{names[here]}, which {own[here]}"
+            for other in waits.get(here, []):
+                if other not in came_from:
+                    came_from[other] = here
+                    queue.append(other)
+        if waits[robot]:
+            return f"waits for {names[waits[robot][0]]}"
+        return "was under way"
+
+    def _waits_for(self, robot: int) -> list[int]:
+        """The robots that may keep one from going on: in its way, in its door or lift, or due to pass before it."""
+        found = [
+            holder
+            for other, name in self.orders.requests
+            if other == robot and (robot, name) not in self.granted
+            for holder in self.holders.get(name, ())
+        ]
+        if (ends := self._next_move(robot)) is not None:
+            gap = point_segment_distance(self.pose[:, :2], *ends)
+            near = gap < self.problem.radius + self.problem.radius[robot]
+            found += np.flatnonzero(near)[np.argsort(gap[near], kind="stable")].tolist()
+        awaited = self.dispatcher_waits_for(robot)
+        found += awaited or []
+        graph = self.dependencies
+        if awaited is None and (move := graph.next_move(robot, int(self.orders.released[robot]))) is not None:
+            for other, needed, reached in graph.of(move):
+                known = self.faults.told or self.motion
+                done = known.reached if reached else known.cleared
+                found += [other] if done[other] < needed else []
+        return [other for other in dict.fromkeys(found) if other != robot]
+
+    def _next_move(self, robot: int) -> Float | None:
+        """The ends f8[2,2] of the first move that a robot has not completed."""
+        edge = self.plan.paths[robot].edge
+        ahead: Int = np.flatnonzero(edge[int(self.motion.reached[robot]) :] >= 0)
+        if not len(ahead):
+            return None
+        found: Float = self.problem.roadmap.position[
+            self.problem.roadmap.edges[edge[int(self.motion.reached[robot]) + int(ahead[0])]]
+        ]
+        return found
