@@ -4,6 +4,7 @@
 """
 
 import argparse
+import os
 from pathlib import Path
 from typing import Any
 
@@ -79,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
         return analyze_output(Path(arguments.bag), arguments.scenario, as_json=arguments.json)
     from mrpbench_core.engine.processes.call import in_worker
 
-    out = arguments.out or str(Path("results", Path(arguments.bag).resolve().stem))
+    out = arguments.out or str(Path("results", Path(os.path.realpath(arguments.bag)).stem))
     record = in_worker(f"{arguments.bag} cannot be analyzed", analyzed, {**vars(arguments), "out": out})
     print_json(record) if arguments.json else _print(record, out)
     return 0

@@ -78,11 +78,13 @@ def _main(words: list[str]) -> int:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         code = 0
     except OSError as error:
-        if not is_full(error):
-            code = _defect(error)
-        else:  # stdout, or a file that was being written
+        if is_full(error):  # stdout, or a file that was being written
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
             code = _input_errors([InputError(f"cannot write: {error.strerror}", file=error.filename)])
+        elif isinstance(error.filename, str) and not os.environ.get("MRPBENCH_TRACEBACK"):
+            code = _input_errors([InputError(error.strerror or "cannot be used", file=error.filename)])
+        else:
+            code = _defect(error)
     except Exception as error:  # noqa: BLE001 - the last resort: one line, and the rest where it can be found
         code = _defect(error)
     return code

@@ -12,6 +12,7 @@ attempt stay until the record of the next one is on disk.
 Merging two folders is copying the files of one into the other.
 """
 
+import os
 import secrets
 from datetime import UTC, datetime
 from pathlib import Path
@@ -29,7 +30,7 @@ PARTS = ("invocations", "runs", "recordings", "exports", "logs")
 
 
 def _absolute(path: Path) -> Path:
-    return Path(path).resolve()
+    return Path(os.path.realpath(path))  # `Path.resolve` raises an error for a loop of links
 
 
 @attrs.frozen

@@ -60,6 +60,16 @@ def test_a_mistake_is_one_line_and_exit_code_2(mrpbench, words, what):
     assert "Traceback" not in errors
 
 
+@pytest.mark.parametrize("command", ["report", "view", "analyze", "verify", "calibrate", "run"])
+@pytest.mark.parametrize("name", ["loop", "x" * 5000], ids=["loop", "long"])
+def test_a_path_that_cannot_be_followed_is_one_line_and_exit_code_2(mrpbench, monkeypatch, tmp_path, command, name):
+    monkeypatch.chdir(tmp_path)
+    Path("loop").symlink_to("loop")
+    code, _, errors = mrpbench(command, name)
+    assert (code, errors.count("\n")) == (2, 1)
+    assert "internal error" not in errors
+
+
 def test_a_defect_is_one_line_and_says_where_the_rest_is(mrpbench, monkeypatch, tmp_path):
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     monkeypatch.setattr("tempfile.tempdir", None)

@@ -145,4 +145,5 @@ def make_pair(report: Report, page: Path, first: int, second: int) -> str | None
 
 
 def _address(file: Path, page: Path) -> str:
-    return quote(Path(os.path.relpath(file, page.resolve().parent)).as_posix())  # also a colon, else of a scheme
+    folder = Path(os.path.realpath(page)).parent
+    return quote(Path(os.path.relpath(file, folder)).as_posix())  # also a colon, else of a scheme

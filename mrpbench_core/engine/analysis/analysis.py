@@ -105,7 +105,7 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
         repeat=0,
         provenance={**_code(analysis), "machine": machine(), "live": False},
         analysis={
-            "bag": analysis.bag.resolve().name,
+            "bag": Path(os.path.realpath(analysis.bag)).name,
             "sources": {track.robot: f"{track.source}: {track.topic}" for track in found.tracks},
             "planned": run.planned,
             "notes": [*found.notes, *found.gaps, *_unknown_end(found)],

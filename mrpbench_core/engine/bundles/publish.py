@@ -1,6 +1,7 @@
 """Makes a bundle of results folders."""
 
 import json
+import os
 from collections.abc import Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
@@ -31,7 +32,7 @@ _SHOWN = 3
 
 
 def _resolved(path: Path) -> Path:
-    return path.resolve()
+    return Path(os.path.realpath(path))
 
 
 @attrs.frozen(kw_only=True)
