@@ -1,7 +1,7 @@
 """The contracts for plugin authors: one short file per kind of component."""
 
 from mrpbench_core.api.assigner import Assigner, AssignmentError
-from mrpbench_core.api.component import Component, option
+from mrpbench_core.api.component import Component, between, option
 from mrpbench_core.api.controller import Controller, ControllerSession, FleetControllerSession, FleetOfOne
 from mrpbench_core.api.crowd import Crowd, CrowdSession, CrowdView, Mover, Movers
 from mrpbench_core.api.discrete import DiscreteResult, DiscreteRun, DiscreteSimulator
@@ -94,6 +94,7 @@ __all__ = [
     "Track",
     "Value",
     "WorldSource",
+    "between",
     "hookimpl",
     "option",
 ]

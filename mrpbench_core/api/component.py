@@ -1,11 +1,14 @@
 """Base of every plugin: an immutable recipe whose attrs fields are its options."""
 
+import math
 from abc import ABC
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, ClassVar
 
 import attrs
+
+from mrpbench_core.model.common.units import LARGEST, LARGEST_COUNT, LARGEST_NUMBER
 
 
 def option(
@@ -14,6 +17,7 @@ def option(
     help: str,  # the word that users know
     unit: str | None = None,
     validator: Callable[..., Any] | None = None,
+    infinite: bool = False,
 ) -> Any:
     """Declare one option of a component.
 
@@ -23,11 +27,43 @@ def option(
         unit: `s`, `m`, `m/s`, `rad/s`, `Hz` or `B`. A numeric option with a unit also accepts text such as `"30 s"`,
             `"5 min"` or `"4 GiB"`; the field always holds the SI number.
         validator: an attrs validator, e.g. `attrs.validators.ge(1)`.
+        infinite: numbers may be infinite. Otherwise they are finite, with magnitudes up to
+            `mrpbench_core.model.common.units.LARGEST`.
 
     A field of type `pathlib.Path` names a file, relative to the folder of the configuration; its content identifies it.
     A field whose type is a component class (or a tuple of one) is chosen by plugin name, recursively.
     """
-    return attrs.field(default=default, validator=validator, metadata={"help": help, "unit": unit})
+    check: Callable[..., Any] = _Magnitude(unit, infinite)
+    return attrs.field(
+        default=default,
+        validator=check if validator is None else attrs.validators.and_(check, validator),
+        metadata={"help": help, "unit": unit},
+    )
+
+
+@attrs.frozen
+class _Magnitude:
+    """The validator of every option: no number is so large that computations with it fail."""
+
+    unit: str | None
+    infinite: bool
+
+    def __call__(self, _: Any, field: "attrs.Attribute[Any]", value: Any) -> None:
+        if isinstance(value, tuple):
+            for item in value:
+                self(_, field, item)
+        if not isinstance(value, int | float) or (self.infinite and math.isinf(value)):
+            return
+        unit = self.unit or ""
+        most = LARGEST_COUNT if isinstance(value, int) else LARGEST.get(unit, LARGEST_NUMBER)
+        if not abs(value) <= most:
+            bound = f"at most {most:g}" if value > 0 else f"at least -{most:g}"
+            raise ValueError(f"{field.name!r} must be {bound} {unit}".rstrip() + f", got {value:g}")
+
+
+def between(least: float, most: float) -> Callable[..., Any]:
+    """Return a validator of numbers from `least` to `most`."""
+    return attrs.validators.and_(attrs.validators.ge(least), attrs.validators.le(most))
 
 
 class Component(ABC):
@@ -61,4 +97,4 @@ class Component(ABC):
         return ()
 
 
-__all__ = ["Component", "Path", "option"]
+__all__ = ["Component", "Path", "between", "option"]

@@ -2,12 +2,18 @@
 
 from abc import ABC, abstractmethod
 from collections.abc import Set
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.movers import CrowdView, Mover, Movers
 from mrpbench_core.model.worlds.world import World
+
+
+def in_body(crowd: Any, _: Any, leg_radius: float) -> None:
+    """Validate that the legs of a crowd with the options `radius` and `leg_radius` are not larger than bodies."""
+    if leg_radius > crowd.radius:
+        raise ValueError(f"'leg_radius' must be at most radius = {crowd.radius:g} m, got {leg_radius:g} m")
 
 
 class CrowdSession(ABC):

@@ -47,12 +47,12 @@ class Delays:
         "arrive latest by the plan's order and durations",
         validator=validators.ge(0),
     )
-    tick: float = option(1.0, help="duration of a tick of these settings", unit="s", validator=validators.gt(0))
+    tick: float = option(1.0, help="duration of a tick of these settings", unit="s", validator=validators.ge(0.001))
     speed: float = option(
         0.0,
         help="standard deviation of the logarithm of a robot's speed on each segment of its path, relative to its "
         "usual speed; the mean is 1. A simulator with physics keeps to the robot's greatest speed",
-        validator=validators.ge(0),
+        validator=validators.and_(validators.ge(0), validators.le(3)),
     )
     draws: int = option(
         1,

@@ -23,6 +23,7 @@ from mrpbench_core.api import (
     Simulator,
     TaskSource,
     WorldSource,
+    between,
     option,
 )
 from mrpbench_core.config.delays import Delays
@@ -30,7 +31,11 @@ from mrpbench_core.config.faults import Faults
 from mrpbench_core.files.robot import robot_file, robot_reads
 
 ROBOT = "turtlebot3_burger"
-_COUNTED = validators.and_(validators.ge(0), validators.le(2**63 - 1))
+_SHARE = between(0, 1)
+_WAIT: Any = validators.and_(validators.gt(0), validators.le(1e6))
+"""Of wall time: a million seconds are eleven days; the system call `poll` waits no longer than twice as much."""
+_AHEAD = validators.le(86400.0)
+"""Of simulated time for which plans are made: a day."""
 
 
 def block(plugin: Any = attrs.NOTHING, *, help: str, validator: Any = None) -> Any:
@@ -42,13 +47,13 @@ def block(plugin: Any = attrs.NOTHING, *, help: str, validator: Any = None) -> A
 class LidarOptions:
     """Settings that replace those of the robot's lidar; None = as in the robot model."""
 
-    beams: int | None = option(None, help="beams per turn", validator=validators.optional(validators.ge(1)))
+    beams: int | None = option(None, help="beams per turn", validator=validators.optional(between(1, 100_000)))
     range: float | None = option(None, help="reach", unit="m", validator=validators.optional(validators.gt(0)))
     min_range: float | None = option(
         None, help="nearest distance seen", unit="m", validator=validators.optional(validators.ge(0))
     )
     rate: float | None = option(
-        None, help="scans per simulated second", unit="Hz", validator=validators.optional(validators.gt(0))
+        None, help="scans per simulated second", unit="Hz", validator=validators.optional(between(0.01, 1e4))
     )
     mount: tuple[float, float, float] | None = option(None, help="x, y, z in the robot's base frame, metres")
 
@@ -86,23 +91,21 @@ class Noise:
     """Noise that the engine adds to the exact output of the simulator and to commands; zero by default."""
 
     lidar: float = option(0.0, help="standard deviation of each range", unit="m", validator=validators.ge(0))
-    lidar_dropout: float = option(
-        0.0, help="share of returns that are lost", validator=validators.and_(validators.ge(0), validators.le(1))
-    )
+    lidar_dropout: float = option(0.0, help="share of returns that are lost", validator=_SHARE)
     odometry: float = option(
         0.0,
         help="standard deviation in metres of what a wheel measures over 1 m; grows with the square root of the way",
-        validator=validators.ge(0),
+        validator=_SHARE,
     )
     odometry_bias: float = option(
         0.0,
         help="standard deviation of the scale error of each wheel, drawn once per run: 0.01 = 1 % of the distance",
-        validator=validators.ge(0),
+        validator=_SHARE,
     )
     actuation: float = option(
         0.0,
         help="standard deviation of the relative error of speed and turn rate, drawn every control period",
-        validator=validators.ge(0),
+        validator=_SHARE,
     )
     start_jitter: float = option(
         0.0, help="each robot starts up to this late, uniformly", unit="s", validator=validators.ge(0)
@@ -126,7 +129,7 @@ class RecordingOptions:
     """Settings of recordings."""
 
     keep: Literal["all", "failed", "none"] = option("all", help="of which runs the recording is kept")
-    rate: float = option(10.0, help="samples per simulated second", unit="Hz", validator=validators.gt(0))
+    rate: float = option(10.0, help="samples per simulated second", unit="Hz", validator=between(1e-3, 1e4))
     scans: bool = option(False, help="keep laser scans, which are large")
     trajectories: RecordedTrajectories | None = option(
         None,
@@ -138,7 +141,7 @@ class RecordingOptions:
 class Limits:
     """When a stage is ended."""
 
-    planning: float = option(60.0, help="wall time of one call of the planner", unit="s", validator=validators.gt(0))
+    planning: float = option(60.0, help="wall time of one call of the planner", unit="s", validator=_WAIT)
     iterations: int | None = option(
         None,
         help="steps after which a planner that improves its plan stops: reproducible, where the clock is not",
@@ -146,7 +149,7 @@ class Limits:
     )
     memory: int = option(4 * 2**30, help="resident memory of a run", unit="B", validator=validators.ge(1))
     execution: float = option(300.0, help="simulated time", unit="s", validator=validators.gt(0))
-    wall: float = option(1800.0, help="wall time of a run", unit="s", validator=validators.gt(0))
+    wall: float = option(1800.0, help="wall time of a run", unit="s", validator=_WAIT)
 
 
 def _lasts_a_period(replanning: "Replanning", _: "attrs.Attribute[Any]", value: float) -> None:
@@ -177,13 +180,13 @@ class Replanning:
         help="time beyond what is released for which new plans are made; then robots wait for the next plan, so it "
         "needs a `period` that is not longer; none: new plans lead to the goals",
         unit="s",
-        validator=validators.optional(_lasts_a_period),
+        validator=validators.optional(validators.and_(_lasts_a_period, _AHEAD)),
     )
     latency: float = option(
         0.0,
         help="simulated time until a new plan takes effect; meanwhile nothing more is released",
         unit="s",
-        validator=validators.ge(0),
+        validator=validators.and_(validators.ge(0), _AHEAD),
     )
     budget: float | None = option(
         None,
@@ -258,7 +261,7 @@ class RunConfig:
     )
     localizer: Localizer | None = block("ground_truth", help="tells robots where they are", validator=_drives)
     control_rate: float = option(
-        20.0, help="rate at which dispatcher, navigator and controller act", unit="Hz", validator=validators.gt(0)
+        20.0, help="rate at which dispatcher, navigator and controller act", unit="Hz", validator=between(0.1, 1e4)
     )
     goal_tolerance: float = option(
         0.7,
@@ -277,11 +280,13 @@ class RunConfig:
     recording: RecordingOptions = option(RecordingOptions(), help="settings of recordings")
     limits: Limits = option(Limits(), help="limits of time and memory")
     replanning: Replanning = option(Replanning(), help="calls of the planner during execution")
-    seed: int = option(0, help="of the scenario, the planner's random choices and the noise", validator=_COUNTED)
+    seed: int = option(
+        0, help="of the scenario, the planner's random choices and the noise", validator=validators.ge(0)
+    )
     repeat: int = option(
         0,
         help="the same scenario again with other noise and other random choices of the planner",
-        validator=_COUNTED,
+        validator=validators.ge(0),
     )
 
     @property

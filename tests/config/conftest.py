@@ -61,7 +61,7 @@ class Astar(Planner): pass
 @fill
 @attrs.frozen(kw_only=True)
 class Ecbs(Planner):
-    w: float = option(1.2, help="bound", validator=validators.ge(1))
+    w: float = option(1.2, help="bound", validator=validators.ge(1), infinite=True)
     heuristic: Literal["zero", "cg"] = option("cg", help="high-level heuristic")
     iterations: int | None = option(None, help="nodes", validator=validators.optional(validators.ge(1)))
     speed: Speed = option(Speed.SLOW, help="how fast")

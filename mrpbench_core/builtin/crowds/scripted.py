@@ -8,13 +8,14 @@ import attrs
 import numpy as np
 from attrs import validators
 
-from mrpbench_core.api import Crowd, CrowdSession, CrowdView, Mover, Movers, option
+from mrpbench_core.api import Crowd, CrowdSession, CrowdView, Mover, Movers, between, option
+from mrpbench_core.api.crowd import in_body
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.table import read_rows
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Fleet
-from mrpbench_core.model.execution.movers import JUMP
+from mrpbench_core.model.execution.movers import JUMP, LARGEST_RADIUS, LONGEST_KIND
 from mrpbench_core.model.worlds.world import World
 
 _COLUMNS = ("id", "t", "x", "y")
@@ -50,10 +51,16 @@ class Scripted(Crowd):
 
     tracks: tuple[Track, ...] = option((), help="movers with their keyframes")
     file: Path | None = option(None, help="CSV file of recorded tracks")
-    radius: float = option(0.3, help="radius of a body", unit="m", validator=validators.gt(0))
+    radius: float = option(0.3, help="radius of a body", unit="m", validator=between(0.01, LARGEST_RADIUS))
     legs: bool = option(True, help="lidars see two legs instead of the body")
-    leg_radius: float = option(0.05, help="radius of a leg", unit="m", validator=validators.gt(0))
-    kind: str = option("person", help="what moves, as pictures and bags name it", validator=validators.min_len(1))
+    leg_radius: float = option(
+        0.05, help="radius of a leg", unit="m", validator=validators.and_(validators.gt(0), in_body)
+    )
+    kind: str = option(
+        "person",
+        help="what moves, as pictures and bags name it",
+        validator=validators.and_(validators.min_len(1), validators.max_len(LONGEST_KIND)),
+    )
 
     def start(self, world: World, fleet: Fleet, seed: int, seen: CrowdView) -> CrowdSession:  # noqa: ARG002
         """Begin all tracks.

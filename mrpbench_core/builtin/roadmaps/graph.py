@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.api.component import option
+from mrpbench_core.api.component import between, option
 from mrpbench_core.builtin.roadmaps.facilities import with_facilities
 from mrpbench_core.builtin.roadmaps.junctions import LaneSegments, cut_at_junctions
 from mrpbench_core.builtin.roadmaps.motion import KINODYNAMIC_TICK, TimedRoadmap, driving_ticks
@@ -31,7 +31,7 @@ class Graph(TimedRoadmap):
         None,
         help="Time step of durations; by default 0.5 s, or 0.1 s if they are kinodynamic.",
         unit="s",
-        validator=attrs.validators.optional(attrs.validators.gt(0)),
+        validator=attrs.validators.optional(between(0.001, 60)),
     )
     tolerance: float = option(
         0.2,

@@ -5,6 +5,7 @@ import numpy as np
 
 from mrpbench_core.api.component import option
 from mrpbench_core.builtin.roadmaps.cells import (
+    SIDE,
     cell_roadmap,
     connect,
     empty_raster,
@@ -38,7 +39,7 @@ class GridRoadmap(TimedRoadmap):
         None,
         help="Side of a cell; by default that of the map's own raster if robots fit into its cells, else 0.4 m.",
         unit="m",
-        validator=attrs.validators.optional(attrs.validators.gt(0)),
+        validator=attrs.validators.optional(SIDE),
     )
 
     def build(self, world: World, fleet: Fleet) -> Roadmap:

@@ -7,6 +7,7 @@ import numpy as np
 
 from mrpbench_core.api.component import option
 from mrpbench_core.builtin.roadmaps.cells import (
+    SIDE,
     cell_roadmap,
     connect,
     empty_raster,
@@ -44,7 +45,7 @@ class Lanes(TimedRoadmap):
     Complex and Cluttered Environments", ICRA 2023, with every quirk of its code; it ignores walls.
     """
 
-    cell_size: float = option(0.4, help="Side of a cell.", unit="m", validator=attrs.validators.gt(0))
+    cell_size: float = option(0.4, help="Side of a cell.", unit="m", validator=SIDE)
     compatible: Literal["mrp_bench"] | None = option(
         None,
         help="`mrp_bench`: exactly the raster of the original benchmark.",

@@ -6,7 +6,7 @@ from typing import Protocol
 
 import attrs
 
-from mrpbench_core.api.component import option
+from mrpbench_core.api.component import between, option
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.builtin.task_sources.drawn import AnyPlace, Drawing
 from mrpbench_core.model.common.arrays import Float, Int16
@@ -22,7 +22,7 @@ class ClosedPool(AnyPlace):
     unfinished. Errands are drawn at random places of the world.
     """
 
-    per_robot: float = option(1.5, help="unfinished tasks per robot", validator=attrs.validators.gt(0))
+    per_robot: float = option(1.5, help="unfinished tasks per robot", validator=between(1e-3, 1000))
     total: int | None = option(
         None,
         help="tasks in all; none: they never end",

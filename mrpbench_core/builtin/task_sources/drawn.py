@@ -6,7 +6,7 @@ from itertools import islice
 import attrs
 import numpy as np
 
-from mrpbench_core.api.component import option
+from mrpbench_core.api.component import between, option
 from mrpbench_core.api.task_source import TaskSource
 from mrpbench_core.builtin.scenarios.places import (
     Places,
@@ -21,6 +21,7 @@ from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.model.worlds.world import World
 
+_FEW = between(1, 1000)
 ERRANDS, ARRIVALS = 2, 3
 """Keys of the random streams of a seed, beside those of the scenario `random`."""
 
@@ -57,9 +58,9 @@ class AnyPlace(DrawnTasks):
     roadmap, outside of doors, lifts and mutexes, where every robot can drive between any two.
     """
 
-    errands: int = option(1, help="places that each task visits, in order", validator=attrs.validators.ge(1))
+    errands: int = option(1, help="places that each task visits, in order", validator=_FEW)
     places_per_errand: int = option(
-        1, help="places drawn for each errand, which is done at any of them", validator=attrs.validators.ge(1)
+        1, help="places drawn for each errand, which is done at any of them", validator=_FEW
     )
 
     def places(self, world: World, roadmap: Roadmap) -> tuple[tuple[Places, int], ...]:

@@ -17,17 +17,13 @@ from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.model.common.arrays import Float, Int16, Int32
 from mrpbench_core.model.common.fleet import Fleet
-from mrpbench_core.model.execution.movers import JUMP, CrowdView, Mover, Movers
+from mrpbench_core.model.execution.movers import JUMP, LARGEST_RADIUS, LONGEST_KIND, CrowdView, Mover, Movers
 from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.world import World
 
 FASTEST = 5.0
 """m/s at which a member moves at most, and pushes a robot; one that is farther away was put there."""
-LARGEST_RADIUS = 10.0
-"""Metres of a member."""
-LONGEST_KIND = 64
-"""Characters of the kind of a member."""
 ROUNDING = 1e-6
 """Metres."""
 

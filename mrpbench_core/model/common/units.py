@@ -32,6 +32,23 @@ UNITS: dict[str, dict[str, Fraction]] = {
     },
 }
 """For each SI unit, the units that are accepted for it and their size."""
+LARGEST = {
+    "s": 1e7,
+    "m": 1e5,
+    "m/s": 1e3,
+    "m/s^2": 1e4,
+    "rad": 1e4,
+    "rad/s": 1e4,
+    "rad/s^2": 1e5,
+    "Hz": 1e6,
+    "kg": 1e6,
+}
+"""For each SI unit, the largest magnitude that a setting may have: far above what any fleet needs, and far below what
+computations with it cannot represent."""
+LARGEST_NUMBER = 1e9
+"""The same for numbers without a unit."""
+LARGEST_COUNT = 2**63 - 1
+"""The same for whole numbers."""
 
 # Exponents and digits are bounded, so that `1e999999999` is never computed.
 _NUMBER = r"[-+]?(?:[0-9]{1,30}(?:\.[0-9]{0,30})?|\.[0-9]{1,30})(?:[eE][-+]?[0-9]{1,3})?"

@@ -10,6 +10,11 @@ from mrpbench_core.model.worlds.level_layout import LevelLayout
 JUMP = 1.0
 """Metres in a control period beyond which a mover does not move but is put where it is to be."""
 
+LARGEST_RADIUS = 10.0
+"""Metres of a mover."""
+LONGEST_KIND = 64
+"""Characters of what it is."""
+
 
 @attrs.frozen(kw_only=True)
 class Mover:

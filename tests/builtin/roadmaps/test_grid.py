@@ -175,9 +175,12 @@ def test_a_world_without_room_is_refused(make_fleet, walls):
         GridRoadmap().build(World(name="dot", levels=(Level(name="", walls=walls),)), make_fleet(0.3))
 
 
-def test_a_cell_size_that_is_surely_a_slip_is_refused(two_rooms, make_fleet):
+def test_a_cell_size_that_is_surely_a_slip_is_refused(make_fleet):
+    walls = [[0, 0, 60, 0], [60, 0, 60, 40], [60, 40, 0, 40], [0, 40, 0, 0]]
     with pytest.raises(InputError, match="cells"):
-        GridRoadmap(cell_size=0.0001).build(two_rooms, make_fleet(0.1))
+        GridRoadmap(cell_size=0.01).build(World(name="hall", levels=(Level(name="", walls=walls),)), make_fleet(0.1))
+    with pytest.raises(ValueError, match="cell_size"):
+        GridRoadmap(cell_size=0.0001)
 
 
 def test_a_large_map_keeps_all_its_places(shared_data, make_fleet):

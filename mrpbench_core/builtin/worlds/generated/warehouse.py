@@ -4,7 +4,7 @@ import attrs
 
 from mrpbench_core.api.component import option
 from mrpbench_core.api.world import WorldSource
-from mrpbench_core.builtin.worlds.generated.raster import CELL_SIZE, chances, free_raster, raster_world
+from mrpbench_core.builtin.worlds.generated.raster import CELL_SIZE, SIDE, chances, free_raster, raster_world
 from mrpbench_core.model.worlds.world import World
 
 
@@ -28,7 +28,7 @@ class GeneratedWarehouse(WorldSource):
         help="Probability that a shelf is missing.",
         validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.le(1)),
     )
-    cell_size: float = option(CELL_SIZE, help="Side of a cell.", unit="m", validator=attrs.validators.gt(0))
+    cell_size: float = option(CELL_SIZE, help="Side of a cell.", unit="m", validator=SIDE)
     seed: int = option(0, help="Seed of the missing shelves.")
 
     def load(self) -> World:

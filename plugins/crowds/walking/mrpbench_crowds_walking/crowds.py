@@ -6,9 +6,11 @@ import attrs
 from attrs import validators
 from mrpbench_native.sim import walker_options
 
-from mrpbench_core.api import Crowd, CrowdSession, CrowdView, option
+from mrpbench_core.api import Crowd, CrowdSession, CrowdView, between, option
+from mrpbench_core.api.crowd import in_body
 from mrpbench_core.api.described import described
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.movers import LARGEST_RADIUS
 from mrpbench_core.model.worlds.world import World
 from mrpbench_crowds_walking.reactions import Reaction
 from mrpbench_crowds_walking.session import WalkingSession
@@ -51,7 +53,7 @@ class _Walking(Crowd):
     )
     given: tuple[Person, ...] = option((), help="further people, with places and goals of their own")
     level: int = option(0, help="index of the level on which they walk", validator=validators.ge(0))
-    radius: float = option(0.25, help="radius of a body", unit="m", validator=validators.gt(0))
+    radius: float = option(0.25, help="radius of a body", unit="m", validator=between(0.01, LARGEST_RADIUS))
     speed: float = option(
         1.34, help="mean of walking speeds, between 0.5 and 2.2", unit="m/s", validator=validators.gt(0)
     )
@@ -63,7 +65,9 @@ class _Walking(Crowd):
     )
     group_size: int = option(1, help="people walk in groups of so many; not those `given`", validator=validators.ge(1))
     legs: bool = option(True, help="lidars see two legs instead of the body")
-    leg_radius: float = option(0.05, help="radius of a leg", unit="m", validator=validators.gt(0))
+    leg_radius: float = option(
+        0.05, help="radius of a leg", unit="m", validator=validators.and_(validators.gt(0), in_body)
+    )
     reaction: Reaction = option("regular", help="what they do when they see a robot, in the words of HuNavSim")
 
     def start(self, world: World, fleet: Fleet, seed: int, seen: CrowdView) -> CrowdSession:
@@ -98,7 +102,7 @@ class Carts(_Walking):
 
     kind: ClassVar[str] = "cart"
 
-    radius: float = option(0.45, help="radius of a cart", unit="m", validator=validators.gt(0))
+    radius: float = option(0.45, help="radius of a cart", unit="m", validator=between(0.01, LARGEST_RADIUS))
     speed: float = option(0.9, help="mean of speeds, between 0.5 and 2.2", unit="m/s", validator=validators.gt(0))
     speed_deviation: float = option(0.1, help="standard deviation of speeds", unit="m/s", validator=validators.ge(0))
     legs: bool = option(False, help="lidars see two legs instead of the body")

@@ -40,6 +40,7 @@ class Btpg(SwitchingDispatcher):
         help="decrease of the expected sum of arrivals from which on the first robot to arrive passes first; "
         "-.inf = it always does, as published",
         unit="s",
+        infinite=True,
     )
 
     group_limit: int = option(
