@@ -68,11 +68,12 @@ python: install ## run the Python tests, JOBS at a time
 explore: install ## run the property tests with examples that `make test` does not draw
 	$(BIN)/pytest --numprocesses $(JOBS) --dist worksteal --hypothesis-profile explore -m hypothesis
 
-soak: install ## compare with brute force, execute drawn plans a million times, do a million events of tasks, disturb studies, look for robots that stand, let people meet robots (five hours)
+soak: install ## compare with brute force, execute drawn plans a million times, do a million events of tasks, run configurations drawn from the schema, disturb studies, look for robots that stand, let people meet robots (five hours)
 	$(BIN)/python plugins/planners/mapf/tests/soak_planners.py 20000 1
 	$(BIN)/python plugins/planners/mapf/tests/soak_assigning.py 10000 1
 	$(BIN)/python tests/engine/execution/soak_executions.py 1000000 1
 	$(BIN)/python tests/engine/execution/soak_tasks.py 1000000 1
+	$(BIN)/python tests/engine/soak_configurations.py 2000 1
 	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 1
 	$(BIN)/python tests/engine/processes/soak_disturbances.py 20 2
 	$(BIN)/python plugins/controllers/dwb/tests/soak_driving.py 1000 0

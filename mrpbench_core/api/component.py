@@ -33,7 +33,7 @@ def option(
     A field of type `pathlib.Path` names a file, relative to the folder of the configuration; its content identifies it.
     A field whose type is a component class (or a tuple of one) is chosen by plugin name, recursively.
     """
-    check: Callable[..., Any] = _Magnitude(unit, infinite)
+    check: Callable[..., Any] = Magnitude(unit, infinite)
     return attrs.field(
         default=default,
         validator=check if validator is None else attrs.validators.and_(check, validator),
@@ -42,11 +42,11 @@ def option(
 
 
 @attrs.frozen
-class _Magnitude:
+class Magnitude:
     """The validator of every option: no number is so large that computations with it fail."""
 
     unit: str | None
-    infinite: bool
+    infinite: bool = False
 
     def __call__(self, _: Any, field: "attrs.Attribute[Any]", value: Any) -> None:
         if isinstance(value, tuple):

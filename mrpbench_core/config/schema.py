@@ -74,6 +74,8 @@ class _Schema:
     def _option(self, field: Any) -> dict[str, Any]:
         written = field.metadata.get("written_default", attrs.NOTHING)
         found = self.value(field.type, field.metadata.get("unit"), written if isinstance(written, str) else None)
+        if written is not attrs.NOTHING and {"enum": [None, "none"]} in found.get("anyOf", ()):
+            found["anyOf"][-1] = {"enum": ["none"]}  # an empty value of a whole stage is refused as a slip
         if field.metadata.get("help"):
             found = {**found, "description": field.metadata["help"]}
         default = written if written is not attrs.NOTHING else field.default

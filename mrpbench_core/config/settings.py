@@ -147,7 +147,7 @@ class Limits:
         help="steps after which a planner that improves its plan stops: reproducible, where the clock is not",
         validator=validators.optional(validators.ge(0)),
     )
-    memory: int = option(4 * 2**30, help="resident memory of a run", unit="B", validator=validators.ge(1))
+    memory: int = option(4 * 2**30, help="resident memory of a run", unit="B", validator=between(1, 2**50))
     execution: float = option(300.0, help="simulated time", unit="s", validator=validators.gt(0))
     wall: float = option(1800.0, help="wall time of a run", unit="s", validator=_WAIT)
 

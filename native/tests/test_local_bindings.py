@@ -56,14 +56,14 @@ def test_invalid_rows_are_refused(changed, message):
     ("settings", "message"),
     [
         ({"simtime": 1.0}, "there is no option 'simtime'"),
-        ({"sim_time": 0.0}, "sim_time must be a number above 0, not 0"),
+        ({"sim_time": 0.0}, "sim_time must be a number from 0.01 to 60, not 0"),
         ({"acc_lim_x": -1.0}, "acc_lim_x must be a number above 0"),
         ({"decel_lim_x": 1.0}, "deceleration limits negative"),
         ({"marking": 1.0}, "marking must be true or false"),
         ({"min_vel_x": 1.0, "max_vel_x": 0.5}, "lowest speed exceeds"),
         ({"vx_samples": 0}, "vx_samples must be a whole number from 1 to 1000"),
         ({"resolution": 0.0}, "resolution"),
-        ({"width": 1e6}, "cells"),
+        ({"width": 500.0}, "cells"),
         ({"inflation_radius": 99.0}, "inflation radius"),
     ],
 )

@@ -65,6 +65,7 @@ def test_accepted_configurations_are_valid(validator, text):
         "recording: {keep: some}\n",
         "recording: {scans: on}\n",
         "metrics: [plan]\n",
+        "simulator:\n",
         "matrix: {seed: 3}\n",
         "matrix: {exclude: [3]}\n",
         "matrix: {planer: [astar]}\n",

@@ -4,18 +4,18 @@ namespace mrpbench::local {
 
 Description<CostmapOptions> CostmapOptions::grid() {
   using C = CostmapOptions;
-  return {{"width", &C::width, above(0, "m"), "side of the costmap, which is centred on the robot"},
-          {"height", &C::height, above(0, "m"), "side of the costmap, which is centred on the robot"},
-          {"resolution", &C::resolution, above(0, "m"), "side of a cell"},
+  return {{"width", &C::width, within(0.1, 1000, "m"), "side of the costmap, which is centred on the robot"},
+          {"height", &C::height, within(0.1, 1000, "m"), "side of the costmap, which is centred on the robot"},
+          {"resolution", &C::resolution, within(0.001, 10, "m"), "side of a cell"},
           {"update_frequency", &C::update_frequency, above(0, "Hz"), "update rate of the costmap"},
-          {"footprint_padding", &C::footprint_padding, at_least(0, "m"), "room around the footprint"},
+          {"footprint_padding", &C::footprint_padding, within(0, 10, "m"), "room around the footprint"},
           {"footprint_clearing_enabled", &C::footprint_clearing, "clear the cells under the robot"}};
 }
 
 Description<CostmapOptions> CostmapOptions::inflation() {
   using C = CostmapOptions;
   return {
-      {"inflation_radius", &C::inflation_radius, at_least(0, "m"), "distance up to which obstacles cost something"},
+      {"inflation_radius", &C::inflation_radius, within(0, 100, "m"), "distance up to which obstacles cost something"},
       {"cost_scaling_factor", &C::cost_scaling_factor, at_least(0), "rate at which costs decrease with distance, 1/m"}};
 }
 
@@ -54,7 +54,7 @@ Description<RobotOptions> RobotOptions::description() {
   rows.push_back({Option<Sensor>(leftward, &Sensor::mount), &RobotOptions::sensor});
   rows.push_back({{"lidar_range", &Sensor::range, at_least(0, "m"), "range of the lidar"}, &RobotOptions::sensor});
   rows.push_back({"by_radius", &RobotOptions::by_radius, "the robot is a disc of robot_radius"});
-  rows.push_back({"robot_radius", &RobotOptions::robot_radius, at_least(0, "m"), "radius of that disc"});
+  rows.push_back({"robot_radius", &RobotOptions::robot_radius, within(0, 10, "m"), "radius of that disc"});
   return rows;
 }
 

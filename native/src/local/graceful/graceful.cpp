@@ -39,7 +39,7 @@ struct GracefulOptions {
         {"rotation_scaling_factor", &G::rotation_scaling_factor, above(0),
          "turn rate on the spot per radian and v_angular_max"},
         {"allow_backward", &G::allow_backward, "drive back to a target behind the robot"},
-        {"in_place_collision_resolution", &G::in_place_collision_resolution, above(0),
+        {"in_place_collision_resolution", &G::in_place_collision_resolution, within(1e-4, 10),
          "largest turn on the spot between two checks of collisions, radians"},
         {"use_collision_detection", &G::use_collision_detection, "aim only at targets to which the way is free"}};
   }

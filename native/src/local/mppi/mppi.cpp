@@ -20,6 +20,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Speeds at which the default of Nav2 reaches this many points of a path, 0.05 m apart.
 constexpr double kPointsWithinReach = 28;
+constexpr double kLeastSpacing = 0.001;  // metres between points of the path
 
 float clamped(double value, double low, double high) {
   return static_cast<float>(std::clamp(value, low, high));
@@ -153,7 +154,8 @@ void Mppi::prepare(const Situation& now) {
   batch_.goal_yaw.reset();
   if (!std::isnan(now.path.yaw)) batch_.goal_yaw = static_cast<float>(wrapped(now.path.yaw - now.pose.yaw));
   const double reach = it.time_steps * it.model_dt * it.vx_max;
-  const double spacing = it.path_spacing > 0 ? it.path_spacing : std::min(0.05, reach / kPointsWithinReach);
+  const double wanted = it.path_spacing > 0 ? it.path_spacing : std::min(0.05, reach / kPointsWithinReach);
+  const double spacing = std::max(wanted, kLeastSpacing);
   const double side = now.costmap->options().width / 2;
   const std::vector<Point> points =
       resampled(from_nearest(in_frame_of(now.pose, now.path), side), spacing, std::min(it.prune_distance, side));

@@ -9,7 +9,7 @@ Description<MppiOptions> MppiOptions::nav2() {
   using M = MppiOptions;
   return {{"batch_size", &M::batch_size, within(1, 100000), "number of samples"},
           {"time_steps", &M::time_steps, within(2, 1000), "steps of a sample"},
-          {"model_dt", &M::model_dt, above(0, "s"), "duration of a step; not shorter than the control period"},
+          {"model_dt", &M::model_dt, within(0.001, 10, "s"), "duration of a step; not shorter than the control period"},
           {"iteration_count", &M::iteration_count, within(1, 100), "updates per period"},
           {"temperature", &M::temperature, above(0), "how much worse samples count less; small = the best alone"},
           {"gamma", &M::gamma, at_least(0), "how much controls far from the last ones cost"},
@@ -40,7 +40,7 @@ Description<MppiOptions> MppiOptions::nav2() {
 Description<MppiOptions> MppiOptions::further() {
   using M = MppiOptions;
   return {
-      {"path_spacing", &M::path_spacing, at_least(0, "m"),
+      {"path_spacing", &M::path_spacing, within(0, 10, "m"),
        "distance of the points of the path that critics count; 0 = so that as many are within reach as at Nav2's "
        "highest speed and spacing"},
       {"roll_noises", &M::roll_noises,

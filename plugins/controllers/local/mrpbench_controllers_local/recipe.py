@@ -7,13 +7,12 @@ from typing import Any, ClassVar
 
 import attrs
 import numpy as np
-from attrs.validators import ge
 from mrpbench_native.local import controller_options, robot_options
 
 from mrpbench_controllers_local.costmap import LocalCostmap
 from mrpbench_controllers_local.critics import Critic, NativeCritic
 from mrpbench_controllers_local.settings import RobotSettings, lidar_values
-from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, option
+from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, between, option
 from mrpbench_core.api.described import described
 from mrpbench_core.api.nav2 import settle
 from mrpbench_core.files.errors import InputError
@@ -48,7 +47,7 @@ class LocalController(Controller):
     )
     local_costmap: LocalCostmap | None = option(None, help="costmap around each robot (default: as in Nav2)")
     threads: int = option(
-        1, help="threads that share the robots; results do not depend on their number", validator=ge(1)
+        1, help="threads that share the robots; results do not depend on their number", validator=between(1, 1024)
     )
 
     def __attrs_post_init__(self) -> None:

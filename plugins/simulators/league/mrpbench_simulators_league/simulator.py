@@ -7,7 +7,7 @@ from typing import ClassVar, Literal
 import attrs
 import numpy as np
 
-from mrpbench_core.api import Planner, Promise, option
+from mrpbench_core.api import Planner, Promise, between, option
 from mrpbench_core.api.discrete import DiscreteResult, DiscreteRun, DiscreteSimulator
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.lorr.problem import LARGEST_POOL, Delays, LorrProblem, problem_reads, read_problem
@@ -41,7 +41,7 @@ class StepPlanner(Planner):
     threads: int = option(
         1,
         help="threads of this improvement; results do not depend on their number if `limits.iterations` is given",
-        validator=attrs.validators.ge(1),
+        validator=between(1, 1024),
     )
     guidance: bool = option(True, help="let moves cost more where robots come the other way or stay")
     active: int | None = option(

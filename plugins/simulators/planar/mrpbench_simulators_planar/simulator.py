@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import attrs
 from mrpbench_native.sim import noise_options
 
-from mrpbench_core.api import Simulation, Simulator, option
+from mrpbench_core.api import Simulation, Simulator, between, option
 from mrpbench_core.api.described import described
 from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet
@@ -19,7 +19,7 @@ class Planar(Simulator):
     """Differential drives, discs that touch, lidars; in C++. Levels lie side by side; doors and lifts move."""
 
     threads: int = option(
-        1, help="threads that share the lidars; results do not depend on their number", validator=attrs.validators.ge(1)
+        1, help="threads that share the lidars; results do not depend on their number", validator=between(1, 1024)
     )
 
     def open(
