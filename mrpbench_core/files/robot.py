@@ -17,7 +17,11 @@ from mrpbench_core.model.common.fleet import Lidar, RobotModel, Urdf
 
 _ROBOTS = Path(str(resources.files("mrpbench_core"))) / "robots"
 _MAY_BE_ZERO = {"min_range"}
-_MOST_BEAMS = 100_000
+_LEAST = {"rate": 0.01}
+"""Lower bounds of numbers, where there is one."""
+_MOST = {"max_speed": 1e3, "beams": 1e5}
+_MOST_NUMBER = 1e6
+"""Of all other numbers: far above that of any robot, and far below what computations cannot represent."""
 
 
 @functools.cache
@@ -111,12 +115,12 @@ def _described(document: Document) -> dict[str, Any]:
 def _lidar(document: Document) -> Lidar:
     values = _fields(document, Lidar, ("lidar",))
     mount = values.get("mount", [0, 0, 0])
-    if not (isinstance(mount, list) and len(mount) == 3 and all(_is_number(value) for value in mount)):
+    if not (isinstance(mount, list) and len(mount) == 3 and all(map(_is_place, mount))):
         raise document.error("must be three numbers: x, y, z in metres", ("lidar", "mount"))
     if "mount" in values:
         values["mount"] = tuple(float(value) for value in mount)
-    if not isinstance(values.get("beams", 1), int) or values.get("beams", 1) > _MOST_BEAMS:
-        raise document.error(f"must be a whole number up to {_MOST_BEAMS}", ("lidar", "beams"))
+    if not isinstance(values.get("beams", 1), int):
+        raise document.error("must be a whole number", ("lidar", "beams"))
     lidar = Lidar(**values)
     if lidar.min_range >= lidar.range:
         raise document.error("must be less than the range", ("lidar", "min_range"))
@@ -139,6 +143,10 @@ def _fields(document: Document, kind: type[attrs.AttrsInstance], steps: Steps) -
             raise document.error(f"{key} must be a number", (*steps, key))
         if value < 0 or (value == 0 and key not in _MAY_BE_ZERO):
             raise document.error(f"{key} must be positive", (*steps, key))
+        least, most = _LEAST.get(key, 0), _MOST.get(key, _MOST_NUMBER)
+        if not least <= value <= most:
+            bound = f"at least {least:g}" if value < least else f"at most {most:g}"
+            raise document.error(f"{key} must be {bound}", (*steps, key))
     for name, field in known.items():
         if field.default is attrs.NOTHING and name not in data:
             raise document.error(f"{name} is missing", steps)
@@ -157,7 +165,7 @@ def _footprint(document: Document, points: Any) -> np.ndarray[Any, np.dtype[np.f
     if not (isinstance(points, list) and len(points) >= 3):
         raise document.error("must be a polygon: at least three points [x, y] in metres", ("footprint",))
     for index, point in enumerate(points):
-        if not (isinstance(point, list) and len(point) == 2 and all(_is_number(value) for value in point)):
+        if not (isinstance(point, list) and len(point) == 2 and all(map(_is_place, point))):
             raise document.error("must be two numbers: x, y in metres", ("footprint", index))
     polygon = np.array(points, float)
     ahead = np.roll(polygon, -1, axis=0)
@@ -167,5 +175,9 @@ def _footprint(document: Document, points: Any) -> np.ndarray[Any, np.dtype[np.f
     return polygon if area > 0 else polygon[::-1]
 
 
+def _is_place(value: Any) -> bool:
+    return _is_number(value) and abs(value) <= _MOST_NUMBER
+
+
 def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value)
+    return isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < math.inf

@@ -57,6 +57,7 @@ def load_robot_text(folder, text):
         (ROBOT.replace("max_speed: 1", "max_speed: true"), 3, "max_speed must be a number"),
         (ROBOT.replace("max_speed: 1", "max_speed: .inf"), 3, "max_speed must be a number"),
         (ROBOT.replace("max_speed: 1", "max_speed: 0"), 3, "max_speed must be positive"),
+        (ROBOT.replace("max_speed: 1", "max_speed: 1e300"), 3, "max_speed must be at most 1000"),
         (ROBOT.replace("name: cart", "name: 3"), 1, "must be text"),
         (ROBOT.replace("[0.3, 0.2], [-0.3, 0.2], ", ""), 2, "at least three points"),
         (ROBOT.replace("[0.3, 0.2]", "[0.3]"), 2, "must be two numbers"),

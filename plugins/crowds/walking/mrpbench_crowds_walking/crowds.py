@@ -43,13 +43,13 @@ class _Walking(Crowd):
     people: int | None = option(
         None,
         help="number of people; none: as many as the world says, which is nobody in most worlds",
-        validator=validators.optional(validators.ge(0)),
+        validator=validators.optional(between(0, 10_000)),
     )
     activities: bool = option(
         True, help="these do what people of the world do on the level, if it says so; else they walk between places"
     )
     places: int = option(
-        12, help="number of random places between which they then walk; the same for all", validator=validators.ge(2)
+        12, help="number of random places between which they then walk; the same for all", validator=between(2, 10_000)
     )
     given: tuple[Person, ...] = option((), help="further people, with places and goals of their own")
     level: int = option(0, help="index of the level on which they walk", validator=validators.ge(0))
@@ -63,7 +63,7 @@ class _Walking(Crowd):
     stay: float = option(
         2.0, help="mean time at a goal, exponentially distributed", unit="s", validator=validators.ge(0)
     )
-    group_size: int = option(1, help="people walk in groups of so many; not those `given`", validator=validators.ge(1))
+    group_size: int = option(1, help="people walk in groups of so many; not those `given`", validator=between(1, 100))
     legs: bool = option(True, help="lidars see two legs instead of the body")
     leg_radius: float = option(
         0.05, help="radius of a leg", unit="m", validator=validators.and_(validators.gt(0), in_body)

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from typing import Literal
 
 import attrs
-from attrs.validators import ge, gt, optional
+from attrs.validators import optional
 
-from mrpbench_core.api import Simulation, Simulator, option
+from mrpbench_core.api import Simulation, Simulator, between, option
 from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.worlds.world import World
@@ -21,10 +21,12 @@ class PyBullet(Simulator):
         help="physics step, shortened so that steps fill a control period; by default 1/240 s for the "
         "model `wheels` and 1/60 s for `body`, which is exact with any step",
         unit="s",
-        validator=optional(gt(0)),
+        validator=optional(between(1e-5, 1)),
     )
     iterations: int = option(
-        30, help="iterations of the constraint solver in each step; with fewer, wheels slip", validator=ge(1)
+        30,
+        help="iterations of the constraint solver in each step; with fewer, wheels slip",
+        validator=between(1, 10_000),
     )
     model: Literal["wheels", "body"] = option(
         "wheels",
