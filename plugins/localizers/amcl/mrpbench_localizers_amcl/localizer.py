@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 import attrs
-from attrs.validators import gt, in_
+from attrs.validators import gt, in_, not_
 from mrpbench_native.amcl import options
 
 from mrpbench_core.api import Localizer, LocalizerSession, option
@@ -39,7 +39,12 @@ class Amcl(Localizer):
         None, help="Nav2 parameter file whose block `amcl` is read; options given here take precedence"
     )
     resolution: float = option(0.05, help="side of the squares of the likelihood field", unit="m", validator=gt(0))
-    laser_max_range: float | None = parameter(100.0, help="longest range used; below 0 the lidar's own", unit="m")
+    laser_max_range: float | None = parameter(
+        100.0,
+        help="longest range used; below 0 the lidar's own",
+        unit="m",
+        validator=not_(in_((0,)), msg="'laser_max_range' must not be 0"),
+    )
     laser_min_range: float | None = parameter(-1.0, help="shortest range used; below 0 the lidar's own", unit="m")
     robot_model_type: str | None = parameter(
         _DIFFERENTIAL[0], help="model of the odometry error; only this one is implemented", validator=in_(_DIFFERENTIAL)
