@@ -1,6 +1,5 @@
 """List installed plugins from the metadata of distributions, without importing them."""
 
-import contextlib
 import functools
 import importlib
 import re
@@ -73,14 +72,6 @@ def load(provider: Provider) -> Any:
                 raise
             raise InputError(f"{name} cannot be imported: {one_line(error)}") from error
         return found
-
-
-def try_distribution(name: str) -> None:
-    """Import all plugins of a distribution, those that fail included, to see whether the process survives."""
-    for provider in installed():
-        if provider.distribution == name:
-            with contextlib.suppress(InputError):
-                load(provider)
 
 
 def refresh() -> None:
