@@ -26,7 +26,7 @@ def result_fault(result: Any) -> str | None:
         return f"returned {_kind(result.statistics)} instead of a mapping as statistics"
     for name, value in result.statistics.items():
         if not isinstance(name, str) or not isinstance(value, numbers.Real) or _overflows(value):
-            return f"returned the statistic {name!s:.40} of {value!r:.40}, which is not a number of 64 bits"
+            return f"returned the statistic {name!s:.40}, {_kind(value)}, which is not a number of 64 bits"
     if not isinstance(result.clock_bound, bool | np.bool_):
         return f"returned {_kind(result.clock_bound)} instead of whether the clock decided"
     if not isinstance(result.history, tuple | list) or not all(

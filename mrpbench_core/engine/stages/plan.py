@@ -65,25 +65,19 @@ def call_planner(
         "planning_peak_bytes": max(0, _peak() - before),
     }
     handed.check(planner)
-    if result_fault(result) is None:
+    sound = result_fault(result) is None
+    if sound:
         result = own_returned(result, "the planner")  # judged and used by what it is now
         if seconds > budget.wall_s + LATE_S and result.status in (PlanStatus.SOLVED, PlanStatus.TIMEOUT):
             result = attrs.evolve(result, status=PlanStatus.TIMEOUT, plan=None)
-    timing["clock_bound"] = _clock_bound(result)
-    if history := _history(result):
-        timing["planning_history"] = history
+    timing["clock_bound"] = sound and (bool(result.clock_bound) or result.status == PlanStatus.TIMEOUT)
+    if sound and result.history:
+        timing["planning_history"] = _history(result)
     return result, timing
 
 
-def _clock_bound(result: Any) -> bool:
-    """The clock, not the search, decided what came out."""
-    return isinstance(result, PlanResult) and (bool(result.clock_bound) or result.status == PlanStatus.TIMEOUT)
-
-
-def _history(result: Any) -> list[list[float | None]]:
-    """The anytime curve as rows [seconds, cost, lower bound]; null for what is not known. [] for what is no curve."""
-    if result_fault(result) is not None:
-        return []
+def _history(result: PlanResult) -> list[list[float | None]]:
+    """The anytime curve as rows [seconds, cost, lower bound]; null for what is not known."""
     return [[value if math.isfinite(value) else None for value in attrs.astuple(point)] for point in result.history]
 
 
