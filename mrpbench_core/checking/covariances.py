@@ -12,8 +12,8 @@ ROUNDING = 1e-6
 
 def check_covariances(covariances: Any, robots: int) -> str | None:
     """Return what keeps something from being covariances f8[robots,3,3], as `a covariance that …`, or None."""
-    if not isinstance(covariances, np.ndarray) or covariances.dtype.kind != "f":
-        return f"a covariance that is {type(covariances).__name__} instead of an array of floats"
+    if not isinstance(covariances, np.ndarray) or covariances.dtype != np.float64:
+        return f"a covariance that is {type(covariances).__name__} instead of an array of 64-bit floats"
     if covariances.shape != (robots, 3, 3):
         return f"a covariance of shape {covariances.shape}"
     largest = np.abs(covariances).max(axis=(1, 2), initial=0.0)

@@ -24,6 +24,11 @@ def result_fault(result: Any) -> str | None:
         return f"returned {_kind(result.lower_bound)} as lower bound"
     if not isinstance(result.statistics, Mapping):
         return f"returned {_kind(result.statistics)} instead of a mapping as statistics"
+    for name, value in result.statistics.items():
+        if not isinstance(name, str) or not isinstance(value, numbers.Real) or _overflows(value):
+            return f"returned the statistic {name!s:.40}, {_kind(value)}, which is not a number of 64 bits"
+    if not isinstance(result.clock_bound, bool | np.bool_):
+        return f"returned {_kind(result.clock_bound)} instead of whether the clock decided"
     if not isinstance(result.history, tuple | list) or not all(
         isinstance(point, AnytimePoint) for point in result.history
     ):
@@ -31,6 +36,10 @@ def result_fault(result: Any) -> str | None:
     if result.plan is not None and result.status not in (PlanStatus.SOLVED, PlanStatus.TIMEOUT):
         return f"returned a plan with the status {result.status}"
     return None
+
+
+def _overflows(value: numbers.Real) -> bool:
+    return isinstance(value, int) and not -(2**63) <= value < 2**63
 
 
 def _plan_fault(plan: Any) -> str | None:

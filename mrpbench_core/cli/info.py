@@ -2,6 +2,7 @@
 
 import argparse
 import sys
+from importlib.metadata import PackageNotFoundError
 from typing import Any
 
 from mrpbench_core.cli.output.table import print_json, print_table
@@ -22,10 +23,7 @@ def run(arguments: argparse.Namespace) -> int:
         "mrpbench": __version__,
         "executable": sys.executable,
         **machine(),
-        "distributions": [
-            {"name": name, "version": version, "folder": str(distribution(name).locate_file(""))}
-            for name, version in owners
-        ],
+        "distributions": [{"name": name, "version": version, "folder": _folder(name)} for name, version in owners],
     }
     if arguments.json:
         print_json(facts)
@@ -34,3 +32,11 @@ def run(arguments: argparse.Namespace) -> int:
     rows = [[entry["name"], entry["version"], entry["folder"]] for entry in facts["distributions"]]
     print_table(["distribution", "version", "folder"], rows)
     return 0
+
+
+def _folder(name: str) -> str:
+    """Where a distribution is installed; empty if its metadata are damaged."""
+    try:
+        return str(distribution(name).locate_file(""))
+    except PackageNotFoundError:
+        return ""

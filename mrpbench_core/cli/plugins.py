@@ -1,12 +1,15 @@
 """`mrpbench plugins [KIND | show NAME]`: list plugins without importing them, or show one."""
 
 import argparse
+import logging
 from typing import Any
 
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.plugins.installed import Provider, installed
+from mrpbench_core.plugins.installed import Provider, installed, unreadable
 from mrpbench_core.plugins.kinds import singular
+
+LOG = logging.getLogger(__name__)
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -34,6 +37,8 @@ def run(arguments: argparse.Namespace) -> int:
         if not found:
             kinds = dict.fromkeys(provider.kind for provider in installed())
             raise InputError(f"no plugin has the kind {words[0]!r}", hint="there are " + ", ".join(kinds))
+    for folder, fault in unreadable().items():
+        LOG.warning("%s %s", folder, fault)
     if arguments.json:
         print_json([_facts(provider) for provider in found])
         return 0

@@ -7,7 +7,7 @@ from mrpbench_core.cli.output.table import print_json
 from mrpbench_core.config.schema import schema
 from mrpbench_core.engine.processes.call import in_worker
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.plugins.installed import installed, try_distribution
+from mrpbench_core.plugins.installed import CORE, installed
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -19,7 +19,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(_: argparse.Namespace) -> int:
-    """Print the schema, without distributions whose plugins end the process that imports them."""
+    """Print the schema, without distributions whose plugins keep it from being made."""
     failed = "the schema cannot be made"
     try:
         print_json(in_worker(failed, schema))
@@ -34,11 +34,12 @@ def run(_: argparse.Namespace) -> int:
 
 
 def _ending() -> dict[str, InputError]:
-    """Return the distributions whose plugins end the process, with the reason, by importing each in its own process."""
+    """Return the distributions with whose plugins no schema can be made, with the reason, by trying each alone."""
     found = {}
-    for name in dict.fromkeys(provider.distribution for provider in installed()):
+    names = dict.fromkeys(provider.distribution for provider in installed() if provider.distribution != CORE)
+    for name in names:
         try:
-            in_worker(f"the schema leaves out {name}", try_distribution, name)
+            in_worker(f"the schema leaves out {name}", schema, [other for other in names if other != name])
         except InputError as error:
             found[name] = error
     return found

@@ -4,8 +4,10 @@ The schema does not demand required options, because a matrix may contain them; 
 """
 
 import enum
+import json
 import typing
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from types import NoneType, UnionType
 from typing import Any, Literal
@@ -150,20 +152,25 @@ class _Schema:
 
     def _choice(self, kind: type[Component]) -> dict[str, Any]:
         """Return the schema of a plugin: its name, or a block with its name and options."""
-        classes = _classes(kind, self.without)
-        blocks = [
-            {
-                "type": "object",
-                "title": name,
-                "description": (cls.__doc__ or "").partition("\n")[0],
-                "properties": {"plugin": {"const": name}, **self.options(cls)},
-                "required": ["plugin"],
-                "additionalProperties": False,
-            }
-            for name, cls in classes.items()
-        ]
+        blocks: dict[str, dict[str, Any]] = {}
+        for name, cls in _classes(kind, self.without).items():
+            with suppress(Exception, SystemExit):  # help, defaults and types may be code of the plugin
+                blocks[name] = self._block(name, cls)
         local = {"type": "object", "properties": {"plugin": LOCAL}, "required": ["plugin"]}
-        return {"oneOf": [{"enum": list(classes)}, LOCAL, *blocks, local]}
+        return {"oneOf": [{"enum": list(blocks)}, LOCAL, *blocks.values(), local]}
+
+    def _block(self, name: str, cls: type[Component]) -> dict[str, Any]:
+        """Return the schema of a plugin with its options."""
+        found = {
+            "type": "object",
+            "title": name,
+            "description": (cls.__doc__ or "").partition("\n")[0],
+            "properties": {"plugin": {"const": name}, **self.options(cls)},
+            "required": ["plugin"],
+            "additionalProperties": False,
+        }
+        json.dumps(found)
+        return found
 
 
 def _axis_name() -> str:

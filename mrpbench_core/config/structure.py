@@ -21,8 +21,9 @@ from mrpbench_core.config.scalars import Unfit, literal, member, scalar, show
 from mrpbench_core.config.settings import EXECUTION, WITHOUT_PHYSICS, FleetEntry, RunConfig
 from mrpbench_core.config.shared import Shared
 from mrpbench_core.config.validation import fault_of, stand_in_of, words_of
-from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order
+from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order, one_line
 from mrpbench_core.files.suggestions import suggest
+from mrpbench_core.plugins.importing import is_interrupt, told
 from mrpbench_core.plugins.registry import Registry
 
 C = TypeVar("C", bound=Component)
@@ -166,7 +167,20 @@ class Structure:
             raise InputErrors(item.location.error(key, f"names no {word}", f"add `plugin:` with the name of a {word}"))
         cls = self._references.plugin(chosen, kind, key, default)
         options = {name: inner for name, inner in block.value.items() if name != "plugin"}
-        return cast("Component", self._options(attrs.evolve(block, value=options), cls, key, {}, chosen.value))
+        inner = attrs.evolve(block, value=options)
+        if str(cls.__module__).startswith("mrpbench_core."):
+            return cast("Component", self._options(inner, cls, key, {}, chosen.value))
+        try:
+            with told(f"{Registry(kind).kind} {chosen.value!r}"):  # defaults, converters and validators are its code
+                return cast("Component", self._options(inner, cls, key, {}, chosen.value))
+        except (InputErrors, Unfit):
+            raise
+        except BaseException as error:
+            if is_interrupt(error):
+                raise
+            raise InputErrors(
+                item.location.error(key, f"{chosen.value!r} cannot be made: {one_line(error)}")
+            ) from error
 
     def _block(self, item: Item, kind: type[Any], key: str) -> Any:
         if isinstance(item.value, str) and kind is FleetEntry:

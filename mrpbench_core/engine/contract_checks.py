@@ -14,8 +14,8 @@ from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.checking.covariances import check_covariances
 from mrpbench_core.checking.recording import LARGEST
-from mrpbench_core.engine.own import own
-from mrpbench_core.model.common.arrays import Float, Int, Int32
+from mrpbench_core.engine.own import own_returned
+from mrpbench_core.model.common.arrays import Float, Int, Int16, Int32, frozen_array
 from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.observation import Estimate, ScanBatch
 from mrpbench_core.model.execution.orders import Orders, RepeatedOrders
@@ -27,6 +27,8 @@ T = TypeVar("T")
 _LAST_MODE = int(max(Mode))
 _TURN = 7.0
 """Radians by which a yaw may change without a closer look; more than a whole turn, since it may be wrapped."""
+MOST_ROBOTS = 1_000_000
+"""Robots that a scenario may have."""
 EARLY = 1e-6
 """Seconds by which a scan may be ahead of the clock, because times are rounded."""
 
@@ -34,7 +36,7 @@ EARLY = 1e-6
 class ContractChecks:
     """Checks what the components of one execution return.
 
-    Each method returns a copy that no component holds, except `scans`, by which nothing is judged.
+    Each method returns a copy that no component holds.
 
     Args:
         length: i8[n] segments of each robot's path.
@@ -88,7 +90,7 @@ class ContractChecks:
         """Check the state that a simulator returns; movers may have pushed robots by `push` metres at once."""
         kind, before = "the simulator", self._before
         _require_class(kind, state, State)
-        state = own(state, before)
+        state = own_returned(state, kind, before)
         close = before is not None and self._is_close(state.pose, before.pose)
         if not close:
             self._finite(kind, "pose", state.pose)
@@ -144,7 +146,8 @@ class ContractChecks:
         """Check the scans that a simulator returns at `now`."""
         if not isinstance(batches, tuple | list):
             _refuse("the simulator", f"{type(batches).__name__} instead of scans")
-        for batch in batches:
+        found: tuple[Any, ...] = own_returned(tuple(batches), "the simulator")
+        for batch in found:
             _require_class("the simulator", batch, ScanBatch)
             if not (isinstance(batch.stamp, float | int) and self._scanned <= batch.stamp <= now + EARLY):
                 _refuse(
@@ -159,12 +162,12 @@ class ContractChecks:
                 _refuse("the simulator", "ranges that are negative or no numbers")
             if self._beams is not None and np.count_nonzero(self._beams[batch.robot] != batch.ranges.shape[1]):
                 _refuse("the simulator", f"scans of {batch.ranges.shape[1]} beams by robots that have other lidars")
-        return tuple(batches)
+        return found
 
     def estimate(self, estimate: Estimate) -> Estimate:
         """Check the estimate that a localizer returns."""
         _require_class("the localizer", estimate, Estimate)
-        estimate = own(estimate)
+        estimate = own_returned(estimate, "the localizer")
         self._finite("the localizer", "pose", estimate.pose)
         if estimate.covariance is not None:
             fault = check_covariances(estimate.covariance, self._robots)
@@ -176,7 +179,7 @@ class ContractChecks:
         """Check the orders that a dispatcher returns."""
         kind = "the dispatcher"
         _require_class(kind, orders, Orders)
-        orders = own(orders)
+        orders = own_returned(orders, kind)
         self._one_each(kind, "released", orders.released)
         self._no_robot(kind, "released less than before", orders.released < self._released)
         self._no_robot(kind, "released more segments than there are", orders.released > self.length)
@@ -204,7 +207,7 @@ class ContractChecks:
         """Check the orders for several executions that a dispatcher returns."""
         kind = "the dispatcher"
         _require_class(kind, orders, RepeatedOrders)
-        orders = own(orders)
+        orders = own_returned(orders, kind)
         released, in_step = orders.released, orders.in_step
         if released.shape != (executions, self._robots):
             _refuse(kind, f"released of shape {released.shape} for {executions} executions of {self._robots} robots")
@@ -221,7 +224,7 @@ class ContractChecks:
         kind = "the navigator"
         _require_class(kind, motion, Motion)
         before = self._motion
-        motion = self._motion = own(motion, before)
+        motion = self._motion = own_returned(motion, kind, before)
         self._finite(kind, "twist", motion.twist)
         if (
             before is not None
@@ -269,8 +272,17 @@ class ContractChecks:
 
 def check_returned(component: Component, returned: T, wanted: type) -> T:
     """Check the class of what a component returns."""
-    _require_class(f"the {kind_of(component.group).replace('_', ' ')}", returned, wanted)
+    _require_class(_kind(component), returned, wanted)
     return returned
+
+
+def check_copied(component: Component, returned: T, wanted: type) -> T:
+    """Check the class of what a component returns, which the engine uses from now on; return a copy."""
+    return own_returned(check_returned(component, returned, wanted), _kind(component))
+
+
+def _kind(component: Component) -> str:
+    return f"the {kind_of(component.group).replace('_', ' ')}"
 
 
 def check_made(kind: str, fault: str | None) -> None:
@@ -280,17 +292,40 @@ def check_made(kind: str, fault: str | None) -> None:
 
 
 def check_released(tasks: Any) -> Sequence[Task]:
-    """Check the class of what a stream of tasks returns."""
+    """Check the class of what a stream of tasks returns; return a copy."""
     if not isinstance(tasks, Sequence):
         _refuse("the task source", f"{type(tasks).__name__} instead of tasks")
-    for task in tasks:
+    found: tuple[Task, ...] = own_returned(tuple(tasks), "the task source")
+    for task in found:
         _require_class("the task source", task, Task)
-    return tasks
+    return found
+
+
+def check_places(places: Any) -> tuple[Float, Int16] | None:
+    """Check the places at which a stream of tasks says that errands may be; return a copy."""
+    found: Any = own_returned(places, "the task source")
+    if found is None:
+        return None
+    try:
+        position, level = frozen_array(found[0], "f8", 2), frozen_array(found[1], "i2")
+    except (TypeError, ValueError, IndexError, KeyError) as error:
+        _refuse("the task source", f"places that are none: {error}")
+    if level.shape != (len(position),):
+        _refuse("the task source", f"{len(position)} places and levels of shape {level.shape}")
+    return position, level
+
+
+def check_ended(ended: Any) -> bool:
+    """Check whether a stream of tasks says that it has ended."""
+    if not isinstance(ended, bool | np.bool_):
+        _refuse("the task source", f"{type(ended).__name__} instead of whether it has ended")
+    return bool(ended)
 
 
 def check_size(robots: Any) -> int:
     """Check the number of robots that a scenario says."""
-    if not isinstance(robots, int | np.integer) or robots < 0:
+    robots = own_returned(robots, "the scenario")
+    if not isinstance(robots, int | np.integer) or not 0 <= robots <= MOST_ROBOTS:
         _refuse("the scenario", f"{robots!r:.40} instead of a number of robots")
     return int(robots)
 
@@ -309,7 +344,8 @@ def check_drawn(scenario: Scenario, robots: int) -> Scenario:
 
 
 def check_kept(kept: Any, waypoints: int) -> NDArray[np.bool_]:
-    """Check the waypoints that a plan filter keeps."""
+    """Check the waypoints that a plan filter keeps; return a copy."""
+    kept = own_returned(kept, "the plan filter")
     if not isinstance(kept, np.ndarray) or kept.dtype != bool or kept.shape != (waypoints,):
         _refuse("the plan filter", f"something other than bool[{waypoints}]")
     if not (kept[0] and kept[-1]):
@@ -318,7 +354,7 @@ def check_kept(kept: Any, waypoints: int) -> NDArray[np.bool_]:
 
 
 def _require_class(kind: str, returned: object, wanted: type) -> None:
-    if not isinstance(returned, wanted):
+    if not issubclass(type(returned), wanted):  # `isinstance` believes what an object says of its class
         _refuse(kind, f"{type(returned).__name__} instead of {wanted.__name__}")
 
 

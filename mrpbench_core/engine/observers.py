@@ -15,8 +15,8 @@ class Observers:
 
     planned: Callable[..., Any] | None = None
     """problem: Problem, result: PlanResult; copies."""
-    executing: Callable[..., Any] = _ignore
-    """context: RunContext."""
+    executing: Callable[..., Any] | None = None
+    """context: RunContext, a copy."""
     stepped: Callable[..., Any] | None = None
     """now: float (simulated seconds), state: State, observation: FleetObservation, routes: Sequence[Route]."""
     executed: Callable[..., Any] = _ignore

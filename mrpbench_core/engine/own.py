@@ -6,10 +6,12 @@ changing them on purpose.
 
 import enum
 import marshal
+import numbers
 import weakref
 from collections.abc import Mapping, Sequence
 from functools import partial
 from itertools import chain
+from pathlib import PurePath
 from types import MemberDescriptorType
 from typing import Any, ClassVar, Generic, TypeVar
 
@@ -18,12 +20,17 @@ import numpy as np
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.files.errors import one_line
 from mrpbench_core.model.common.arrays import ARRAY, read_only
 from mrpbench_core.model.common.plain import plain_bytes
 from mrpbench_core.plugins.kinds import kind_of
 
 T = TypeVar("T")
-_PLAIN = (int, float, str)
+_PLAIN: dict[type, Any] = {int: int.__int__, float: float.__float__, str: str.__str__}
+"""How a value of a class that is derived from these becomes one of these, whatever methods the class replaces."""
+_CONTAINERS = (tuple, list, frozenset, set)
+_OURS = ("mrpbench_core.", "numpy")
+"""Modules whose classes compare and convert as they should."""
 _ATOMS = frozenset({bool, int, float, str, type(None)})
 _NUMBERS = _ATOMS - {str}
 _LARGE = 1 << 14
@@ -44,6 +51,22 @@ def own(value: T, like: T | None = None) -> T:
     known = _Copies()
     copied: T = _own_object(value, known, like) if type(value) in _SLOTS else _own(value, known)
     return copied
+
+
+def own_returned(value: T, by: str, like: T | None = None) -> T:
+    """Return a copy as `own` does of what a component returned; `by` names it, as in `the localizer`.
+
+    Raises:
+        BrokenContractError: it cannot be copied, because it is not what it seems to be.
+    """
+    try:
+        return own(value, like)
+    except BrokenContractError as error:
+        raise BrokenContractError(str(error).replace("a component", by, 1)) from error
+    except MemoryError:
+        raise
+    except BaseException as error:  # values may have methods of the component
+        raise BrokenContractError(f"{by} returned what cannot be copied: {one_line(error)}") from error
 
 
 class _Copies(dict[int, Any]):
@@ -78,7 +101,7 @@ def _own(value: Any, known: _Copies) -> Any:
             return marshal.loads(plain_bytes(value))  # noqa: S302 - what was dumped just now
         return tuple([_own(item, known) for item in value])
     if kind is dict:
-        return {key: _own(item, known) for key, item in value.items()}
+        return {_own(key, known): _own(item, known) for key, item in value.items()}
     if _is_object(kind):
         if (found := known.get(id(value))) is None:
             found = known[id(value)] = value, _own_object(value, known)  # the original is kept: its id stays its own
@@ -98,17 +121,25 @@ def _own_other(value: Any, known: _Copies) -> Any:
     kind = type(value)
     if isinstance(value, np.ndarray):
         return _own(np.array(value, subok=False), known)
-    if isinstance(value, enum.Enum | np.generic | type):
+    if isinstance(value, type) or (isinstance(value, enum.Enum | np.generic) and kind.__module__.startswith(_OURS)):
         return value
-    for plain in _PLAIN:
+    for plain, convert in _PLAIN.items():
         if isinstance(value, plain):
-            return plain(value)
-    if isinstance(value, tuple | list | frozenset):
-        items = [_own(item, known) for item in value]
-        return kind(*items) if hasattr(kind, "_fields") else kind(items)
+            return convert(value)
+    if hasattr(kind, "_fields") and kind.__module__.startswith(_OURS):
+        return kind(*[_own(item, known) for item in value])
+    for container in _CONTAINERS:
+        if isinstance(value, container):
+            return container([_own(item, known) for item in value])
     if isinstance(value, Mapping):
-        return {key: _own(item, known) for key, item in value.items()}
-    return value
+        return {_own(key, known): _own(item, known) for key, item in value.items()}
+    if isinstance(value, Sequence) and not isinstance(value, bytes):
+        return tuple([_own(item, known) for item in value])
+    if isinstance(value, numbers.Real):
+        return float(value)
+    if kind is bytes or isinstance(value, PurePath):
+        return value
+    raise BrokenContractError(f"a component returned an object of the class {kind.__name__}, which is no data")
 
 
 def _own_object(value: Any, known: _Copies, like: Any = None) -> Any:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TypeVar
 
-from mrpbench_core.files.printing import escaped
+from mrpbench_core.files.printing import escaped, printable
 
 Source = TypeVar("Source")
 Content = TypeVar("Content")
@@ -83,9 +83,9 @@ def read_all(read: Callable[[Source], Content], sources: Iterable[Source]) -> li
 
 
 def one_line(error: BaseException) -> str:
-    """Return type and message of an exception from foreign code as one line, which is cut if it is very long."""
+    """Return type and message of an exception from foreign code as one printable line, cut if it is very long."""
     try:
-        text = " ".join(str(error)[:LONGEST].split())
+        text = str(error)[:LONGEST]
     except BaseException:  # noqa: BLE001 - which is foreign code, too
         text = ""
-    return f"{type(error).__name__}: {text}" if text else type(error).__name__
+    return printable(f"{type(error).__name__}: {text}" if text.strip() else type(error).__name__)

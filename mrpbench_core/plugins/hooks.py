@@ -11,7 +11,7 @@ import pluggy
 from packaging.utils import canonicalize_name
 
 from mrpbench_core.api import hooks as specifications
-from mrpbench_core.files.errors import InputError, one_line
+from mrpbench_core.files.errors import LONGEST, InputError, one_line
 from mrpbench_core.files.suggestions import closest
 from mrpbench_core.plugins.installed import Provider, load, providers
 from mrpbench_core.plugins.kinds import HOOKS
@@ -56,8 +56,8 @@ class Hooks:
         try:
             manager.register(plugin, name)
             callers = manager.get_hookcallers(plugin) or []
-        except Exception as error:  # noqa: BLE001 - a plugin's attributes may raise anything
-            self._refuse(name, " ".join(str(error).split()))
+        except BaseException as error:  # noqa: BLE001 - a plugin's attributes may raise anything
+            self._refuse(name, one_line(error))
             return
         for caller in callers:
             if not caller.has_spec():
@@ -95,7 +95,7 @@ class Hooks:
                 continue
             try:
                 found.function(**{name: _own(arguments[name]) for name in found.arguments})
-            except (Exception, SystemExit) as error:  # noqa: BLE001 - calling a plugin runs its code
+            except BaseException as error:  # noqa: BLE001 - calling a plugin runs its code
                 self._off.add(found.plugin)
                 LOG.warning("hook plugin %r is disabled for this run: %s: %s", found.plugin, hook, one_line(error))
 
@@ -104,10 +104,11 @@ class Hooks:
         for found in self._known.get("mrpbench_check", ()):
             try:
                 problem = found.function()
-            except (Exception, SystemExit) as error:  # noqa: BLE001 - calling a plugin runs its code
-                problem = f"mrpbench_check: {one_line(error)}"
-            if problem:
-                LOG.warning("hook plugin %r: %s", found.plugin, " ".join(str(problem).split()))
+                said = " ".join(str(problem)[:LONGEST].split()) if problem else ""
+            except BaseException as error:  # noqa: BLE001 - calling a plugin runs its code
+                said = f"mrpbench_check: {one_line(error)}"
+            if said:
+                LOG.warning("hook plugin %r: %s", found.plugin, said)
 
     def _refuse(self, name: str, reason: str) -> None:
         self.refused.append(name)

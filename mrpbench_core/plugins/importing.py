@@ -1,6 +1,7 @@
 """Watches the import of plugins, whose modules may do anything."""
 
 import os
+import signal
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -24,6 +25,23 @@ def tell_imports(listener: Listener) -> None:
     _listener = listener
 
 
+def is_interrupt(error: BaseException) -> bool:
+    """Tell whether an exception is Ctrl-C of the user: processes that import plugins have another handler for it."""
+    return isinstance(error, KeyboardInterrupt) and signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+@contextmanager
+def told(plugin: str) -> Iterator[None]:
+    """Tell the listener that a plugin is imported, or called while the process can still say nothing else of it."""
+    _going.append(plugin)
+    _listener(plugin)
+    try:
+        yield
+    finally:
+        _going.pop()
+        _listener(_going[-1] if _going else None)
+
+
 @contextmanager
 def watched(plugin: str) -> Iterator[None]:
     """Watch the import of a plugin, which must not change what other plugins of the process rely on.
@@ -32,13 +50,8 @@ def watched(plugin: str) -> Iterator[None]:
         InputError: the import changes the working directory or leaves a thread running; also at later imports.
     """
     folder, threads = os.getcwd(), threading.active_count()  # noqa: PTH109 - a string for chdir
-    _going.append(plugin)
-    _listener(plugin)
-    try:
+    with told(plugin):
         yield
-    finally:
-        _going.pop()
-        _listener(_going[-1] if _going else None)
     if os.getcwd() != folder:  # noqa: PTH109
         os.chdir(folder)
         _faults[plugin] = "changes the working directory when it is imported"

@@ -1,6 +1,5 @@
 """List installed plugins from the metadata of distributions, without importing them."""
 
-import contextlib
 import functools
 import importlib
 import re
@@ -8,6 +7,8 @@ import sys
 from collections.abc import Iterable
 from email.message import Message
 from importlib import metadata
+from itertools import chain
+from pathlib import Path
 from typing import Any, cast
 
 import attrs
@@ -15,7 +16,7 @@ from packaging.markers import UndefinedEnvironmentName
 from packaging.requirements import InvalidRequirement, Requirement
 
 from mrpbench_core.files.errors import InputError, one_line
-from mrpbench_core.plugins.importing import watched
+from mrpbench_core.plugins.importing import is_interrupt, watched
 from mrpbench_core.plugins.kinds import PREFIX, kind_of
 
 CORE = "mrpbench-core"
@@ -66,17 +67,11 @@ def load(provider: Provider) -> Any:
             found: Any = importlib.import_module(module.strip())
             for attribute in filter(None, path.strip().split(".")):
                 found = getattr(found, attribute)
-        except (Exception, SystemExit) as error:
+        except BaseException as error:
+            if is_interrupt(error):
+                raise
             raise InputError(f"{name} cannot be imported: {one_line(error)}") from error
         return found
-
-
-def try_distribution(name: str) -> None:
-    """Import all plugins of a distribution, those that fail included, to see whether the process survives."""
-    for provider in installed():
-        if provider.distribution == name:
-            with contextlib.suppress(InputError):
-                load(provider)
 
 
 def refresh() -> None:
@@ -92,9 +87,39 @@ def distribution(name: str) -> metadata.Distribution:
 
 
 def entry_points() -> list[metadata.EntryPoint]:
-    """Return all entry points in the groups of mrpbench."""
-    found = metadata.entry_points()
+    """Return all entry points in the groups of mrpbench, except those of distributions that `unreadable` names."""
+    try:
+        found = metadata.entry_points()
+    except Exception:  # noqa: BLE001 - one distribution with damaged metadata must not cost the others
+        return [entry for entry in _one_by_one()[0] if entry.group.startswith(PREFIX)]
     return [entry for group in found.groups if group.startswith(PREFIX) for entry in found.select(group=group)]
+
+
+def unreadable() -> dict[str, str]:
+    """Return why the entry points of a distribution cannot be read, by the folder of its metadata."""
+    try:
+        metadata.entry_points()
+    except Exception:  # noqa: BLE001 - as above
+        return _one_by_one()[1]
+    return {}
+
+
+def _one_by_one() -> tuple[list[metadata.EntryPoint], dict[str, str]]:
+    """All entry points, read in spite of distributions with damaged metadata, and what is wrong with these."""
+    found: dict[str, list[metadata.EntryPoint]] = {}
+    faults = {}
+    for owner in metadata.distributions():
+        try:
+            facts = _facts(owner)  # the first distribution of a name is the one that is imported
+            found.setdefault(facts["distribution"], list(owner.entry_points))
+        except Exception as error:  # noqa: BLE001 - a file that is no text, a link to itself, and what else there may be
+            faults[_folder(owner)] = f"has entry points that cannot be read: {one_line(error)}"
+    return list(chain.from_iterable(found.values())), faults
+
+
+def _folder(owner: metadata.Distribution) -> str:
+    """The name of the folder of a distribution's metadata."""
+    return Path(str(getattr(owner, "_path", "unknown"))).name
 
 
 def _path() -> tuple[str, ...]:
@@ -122,12 +147,24 @@ def _scan(_: tuple[str, ...]) -> dict[str, tuple[Provider, ...]]:
 
 def _facts(owner: metadata.Distribution) -> dict[str, Any]:
     """What the plugins of one distribution have in common, as fields of `Provider`."""
-    facts = cast("Message", owner.metadata)  # the declared type is a protocol
-    return {
-        "distribution": facts.get("Name") or "unknown",
-        "version": facts.get("Version") or "unknown",
-        "problem": incompatibility(owner.requires or ()),
-    }
+    try:
+        facts = cast("Message", owner.metadata)  # the declared type is a protocol
+        name, version = facts.get("Name"), facts.get("Version")
+        problem = _fault(name, version) or incompatibility(owner.requires or ())
+    except Exception as error:  # noqa: BLE001 - as above
+        name, version, problem = None, None, f"has metadata that cannot be read: {one_line(error)}"
+    return {"distribution": name or _folder(owner), "version": version or "unknown", "problem": problem}
+
+
+def _fault(name: str | None, version: str | None) -> str | None:
+    """Return why records could not say which distribution and version was used, or None."""
+    if not name or not version:
+        return "has metadata without a name or a version"
+    try:
+        metadata.distribution(name)
+    except metadata.PackageNotFoundError:
+        return "is not found by the name in its metadata"
+    return None
 
 
 def incompatibility(requires: Iterable[str]) -> str | None:

@@ -16,7 +16,7 @@ import attrs
 
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.files.text import read_text
-from mrpbench_core.plugins.importing import watched
+from mrpbench_core.plugins.importing import is_interrupt, watched
 from mrpbench_core.plugins.siblings import importing, sibling_imports
 
 _PREFIX = "mrpbench_local_"
@@ -95,7 +95,9 @@ def _import_module(name: str) -> ModuleType:
             return importlib.import_module(name)
     except InputError:
         raise
-    except (Exception, SystemExit) as error:
+    except BaseException as error:
+        if is_interrupt(error):
+            raise
         raise InputError(f"{name} cannot be imported: {one_line(error)}") from error
 
 
@@ -124,7 +126,9 @@ def _import_source(source: LocalSource) -> ModuleType:
     except SyntaxError as error:
         del sys.modules[name]
         raise InputError(error.msg, file=source.path, line=error.lineno, column=error.offset) from error
-    except (Exception, SystemExit) as error:
+    except BaseException as error:
         del sys.modules[name]
+        if is_interrupt(error):
+            raise
         raise InputError(f"{source.path} cannot be imported: {one_line(error)}") from error
     return module

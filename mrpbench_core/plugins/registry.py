@@ -10,7 +10,7 @@ import attrs
 from packaging.utils import canonicalize_name
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.files.suggestions import closest
 from mrpbench_core.plugins.contract import violation
 from mrpbench_core.plugins.installed import Provider, load, providers
@@ -90,8 +90,13 @@ class Registry(Generic[C]):
         return next((provider for provider in self if _offers(provider, cls)), None)
 
     def _accept(self, cls: Any, described: str) -> type[C]:
-        if fault := violation(cls, self.base):
-            raise InputError(f"{described}: {getattr(cls, '__name__', cls)} {fault}")
+        try:
+            fault = violation(cls, self.base)
+            broken = f"{getattr(cls, '__name__', cls)!s:.80} {fault}" if fault else None
+        except BaseException as error:  # noqa: BLE001 - a metaclass is code of the plugin
+            broken = f"it cannot be examined: {one_line(error)}"
+        if broken:
+            raise InputError(f"{described}: {broken}")
         return cast("type[C]", cls)
 
     def _unknown(self, name: str, part: str, known: list[str]) -> InputError:

@@ -72,12 +72,20 @@ def _named(record: Mapping[str, Any]) -> Iterator[str]:
 
 
 def _tree(folder: Path) -> tuple[list[Path], list[Path]]:
-    """All files and folders from a folder on, without symbolic links and whatever else a plugin left there."""
+    """All files and folders from a folder on, without symbolic links and whatever else a plugin left there.
+
+    A line of a record cannot hold each name that a file may have: those that cannot be printed are left out.
+    """
     files, folders = [], []
     for name, _, inside in os.walk(folder):
         folders.append(Path(name))
-        files += [Path(name, file) for file in inside if stat.S_ISREG(Path(name, file).lstat().st_mode)]
+        if str(Path(name).relative_to(folder)).isprintable():
+            files += [file for entry in inside if entry.isprintable() and _is_file(file := Path(name, entry))]
     return sorted(files), folders
+
+
+def _is_file(file: Path) -> bool:
+    return stat.S_ISREG(file.lstat().st_mode)
 
 
 def _sealed(file: Path) -> str:

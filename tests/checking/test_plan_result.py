@@ -29,6 +29,10 @@ def solved(**values):
         (solved(plan=Plan(paths=(FLAT,))), "robot 0: edge, enter and leave are not all one-dimensional"),
         (solved(lower_bound="low"), "type str as lower bound"),
         (solved(statistics=[1]), "type list instead of a mapping"),
+        (solved(statistics={"nodes": None}), "the statistic nodes, None, which is not"),
+        (solved(statistics={5: 1.0}), "the statistic 5, a value of type float, which is not"),
+        (solved(statistics={"nodes": 2**63}), "the statistic nodes, a value of type int, which is not"),
+        (solved(clock_bound=np.zeros(2)), "type ndarray instead of whether the clock decided"),
         (solved(history=[(0.1, 3.0)]), "a history that is no tuple of AnytimePoint"),
         (solved(status=PlanStatus.UNSOLVABLE), "a plan with the status unsolvable"),
     ],
@@ -44,6 +48,7 @@ def test_the_first_thing_of_a_wrong_type_is_named(returned, said):
     [
         solved(),
         solved(plan=None),
+        solved(statistics={"nodes": np.int64(3), "bound": np.inf}, clock_bound=np.bool_(False)),
         solved(history=(AnytimePoint(seconds=0.1, cost=3.0),)),
         solved(status=PlanStatus.TIMEOUT),
         PlanResult(status=PlanStatus.GAVE_UP, lower_bound=np.float64(np.inf)),

@@ -91,8 +91,24 @@ def test_options_carry_help_and_default(toy):
     assert ecbs["properties"]["heuristic"]["enum"] == ["zero", "cg"]
 
 
+MUTE = """
+import attrs
+from mrpbench_core.api import Planner, option
+
+class Words:
+    def __bool__(self):
+        raise SystemExit
+
+@attrs.frozen(kw_only=True)
+class Mute(Planner):
+    w: float = option(1.2, help=Words())
+    def plan(self, problem, budget): ...
+"""
+
+
 def test_a_broken_plugin_is_left_out(toy, install):
     install("acme-broken", {"mrpbench.planners": {"broken": "{module}:X"}}, "import no_such_module")
+    install("acme-mute", {"mrpbench.planners": {"mute": "{module}:Mute"}}, MUTE)
     installed.refresh()
     names = schema()["$defs"]["mrpbench.planners"]["oneOf"][0]["enum"]
     assert names == ["astar", "ecbs", "task_assigning"]

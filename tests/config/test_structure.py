@@ -204,3 +204,15 @@ def test_a_local_planner_is_chosen_by_its_file(study, errors, tmp_path):
     ]
     (tmp_path / "mine.py").write_text("class Mine(:\n")
     assert errors(SMALL + "planner: ./mine.py:Mine")[0].startswith("mine.py:1:")
+
+
+def test_a_plugin_that_raises_what_is_no_exception_when_it_is_made_is_named(errors, tmp_path):
+    (tmp_path / "mine.py").write_text(
+        "import attrs\nfrom mrpbench_core.api import Planner\n"
+        "def refuse(*_): raise BaseExceptionGroup('two\\nlines', [GeneratorExit()])\n"
+        "@attrs.frozen(kw_only=True)\nclass Mine(Planner):\n"
+        "    depth: int = attrs.field(default=3, converter=refuse)\n    def plan(self, problem, budget): ...\n"
+    )
+    assert errors(SMALL + "planner: {plugin: ./mine.py:Mine, depth: 4}") == [
+        "some.yaml:3:10: planner: './mine.py:Mine' cannot be made: BaseExceptionGroup: two lines (1 sub-exception)"
+    ]

@@ -4,7 +4,14 @@ import attrs
 import numpy as np
 import pytest
 
-from mrpbench_core.engine.contract_checks import BrokenContractError, ContractChecks, check_drawn
+from mrpbench_core.engine.contract_checks import (
+    BrokenContractError,
+    ContractChecks,
+    check_drawn,
+    check_ended,
+    check_places,
+    check_size,
+)
 from mrpbench_core.model.execution.motion import Motion
 from mrpbench_core.model.execution.observation import Estimate, ScanBatch
 from mrpbench_core.model.execution.orders import Orders
@@ -114,6 +121,43 @@ def test_wrong_scans_are_refused(changes):
     checked.scans((SCAN,), 1.1)
     with pytest.raises(BrokenContractError, match="the simulator returned"):
         checked.scans((attrs.evolve(SCAN, **changes),), 1.1)
+
+
+def test_scans_that_the_simulator_changes_after_they_were_checked_stay_as_they_were():
+    given = attrs.evolve(SCAN, ranges=[[1.0, 2.0]])
+    (seen,) = checks().scans((given,), 1.1)
+    given.ranges.setflags(write=True)
+    given.ranges[:] = np.nan
+    assert seen.ranges.tolist() == [[1.0, 2.0]]
+
+
+def test_what_cannot_be_copied_is_refused_by_the_name_of_its_component():
+    broken = attrs.evolve(ESTIMATE)
+    object.__setattr__(broken, "pose", np.full((2, 3), "north"))
+    with pytest.raises(BrokenContractError, match="the localizer returned what cannot be copied: ValueError"):
+        checks().estimate(broken)
+    with pytest.raises(BrokenContractError, match="the localizer returned Actor instead of Estimate"):
+        checks().estimate(Actor())
+
+
+class Actor:
+    """Says that it is an estimate, and has other poses each time."""
+
+    __class__ = property(lambda self: Estimate)
+    pose = property(lambda self: np.random.default_rng().normal(size=(2, 3)))
+    covariance = None
+
+
+@pytest.mark.parametrize("places", ["ab", (np.zeros((2, 3)), [0, 0]), (np.zeros((2, 2)), [0]), ([["x", "y"]], [0]), 5])
+def test_wrong_places_of_a_stream_are_refused(places):
+    with pytest.raises(BrokenContractError, match="the task source returned"):
+        check_places(places)
+
+
+@pytest.mark.parametrize("ended", ["no", None, np.array([True, False]), 1])
+def test_a_stream_says_whether_it_has_ended(ended):
+    with pytest.raises(BrokenContractError, match=r"the task source returned .* instead of whether it has ended"):
+        check_ended(ended)
 
 
 def test_a_simulator_cannot_lose_its_doors():
@@ -245,3 +289,9 @@ def test_earlier_return_values_are_checked_against_a_new_plan():
     checked.adopt(np.array([1, 1]), np.zeros(2, np.int32))
     with pytest.raises(BrokenContractError, match="for robot 0: released more segments than there are"):
         checked.orders(ORDERS)
+
+
+@pytest.mark.parametrize("robots", [-1, "2", 2.0, None, 10**30])
+def test_a_number_of_robots_that_cannot_be_is_refused(robots):
+    with pytest.raises(BrokenContractError, match=r"the scenario returned .* instead of a number of robots"):
+        check_size(robots)

@@ -6,6 +6,7 @@ import pytest
 from mrpbench_core import run
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
@@ -107,6 +108,11 @@ class LyingNavigator(Navigator):
         return _Claims(session, len(fleet))
 
 
+def speed_up(fleet):
+    for robot in fleet.robots:
+        object.__setattr__(robot, "max_speed", 99.0)
+
+
 class _Shift(LocalizerSession):
     def update(self, now, odometry, scans, truth):
         return Estimate(pose=truth)
@@ -115,8 +121,11 @@ class _Shift(LocalizerSession):
 @attrs.frozen(kw_only=True)
 class LyingLocalizer(Localizer):
     needs_truth = True
+    changes: bool = option(False, help="the fleet")
 
     def start(self, fleet, world, placements, seed):
+        if self.changes:
+            speed_up(fleet)
         return _Shift()
 
 
@@ -125,6 +134,8 @@ class LyingSimulator(Kinematic):
     how: str = option(help="to lie")
 
     def open(self, world, fleet, placements, seed, period, movers=(), levels=None):
+        if self.how == "fleet":
+            speed_up(fleet)
         if self.how == "placement":
             placements = placements + [3.0, 0, 0]
         simulation = super().open(world, fleet, placements, seed, period, movers, levels)
@@ -177,8 +188,13 @@ class _Junk(ExporterSession):
 
 @attrs.frozen(kw_only=True)
 class LyingExporter(Exporter):
+    writes: bool = option(True, help="into the recording")
+
     def open(self, context, destination):
-        return _Junk(destination.parent.parent)
+        speed_up(context.fleet)
+        for route in context.routes:
+            write(route.waypoint, 0.0)
+        return _Junk(destination.parent.parent if self.writes else destination)
 
 
 @attrs.frozen(kw_only=True)
@@ -212,10 +228,10 @@ def record(tmp_path, monkeypatch):
     (tmp_path / "liars.py").write_text(LIARS)
     monkeypatch.chdir(tmp_path)
 
-    def make(**changes):
+    def make(observers=None, **changes):
         (point,) = load_study({**HONEST, **changes}).runs
         paths = RunPaths(recording=tmp_path / "run.zip", exports=tmp_path / "exports")
-        return execute(point.config, point.run_id, paths, lambda stage, facts: None).message()
+        return execute(point.config, point.run_id, paths, lambda stage, facts: None, observers).message()
 
     return make
 
@@ -229,10 +245,18 @@ def liar(name, **options):
     [
         ({"planner": liar("Planner", how="goals")}, "the planner LyingPlanner changed the problem.goals"),
         ({"planner": liar("Planner", how="start")}, "the planner LyingPlanner changed the problem.start"),
-        ({"planner": liar("Planner", how="class")}, "a component returned the class Cheap instead of Plan itself"),
+        ({"planner": liar("Planner", how="class")}, "the planner returned the class Cheap instead of Plan itself"),
         ({"assigner": liar("Assigner")}, "the assigner LyingAssigner changed the assignment problem.costs"),
         ({"roadmap": liar("Roadmap")}, "the roadmap LyingRoadmap changed world or fleet"),
         ({"scenario": liar("Scenario", robots=2)}, "the scenario LyingScenario changed world, roadmap or fleet"),
+        (
+            {"simulator": liar("Simulator", how="fleet")},
+            "the simulator LyingSimulator changed the context.fleet.robots.max_speed",
+        ),
+        (
+            {"localizer": liar("Localizer", changes=True), "grant_truth": True},
+            "the localizer LyingLocalizer changed the context.fleet.robots.max_speed",
+        ),
         ({"simulator": liar("Simulator", how="teleport")}, "for robot 0: a position that it cannot have reached"),
         ({"simulator": liar("Simulator", how="placement")}, "for robot 0: a position that it cannot have reached"),
     ],
@@ -284,6 +308,23 @@ def test_inputs_that_a_component_changes_in_every_period_change_nothing_that_is_
         recording.close()
     for one, other in zip(*channels, strict=True):
         assert np.array_equal(one, other)
+
+
+def test_hooks_and_exporters_change_nothing_of_what_components_are_given(record):
+    def spoil(context=None, routes=(), **_):
+        for route in context.routes if context else routes:
+            route.waypoint.setflags(write=True)
+            route.waypoint[:] = 0.0
+        for robot in context.fleet.robots if context else ():
+            object.__setattr__(robot, "max_speed", 99.0)
+
+    honest = record(limits=SHORT)
+    for watched in (
+        record(limits=SHORT, observers=Observers(planned=spoil, executing=spoil, stepped=spoil)),
+        record(limits=SHORT, export=[liar("Exporter", writes=False)]),
+    ):
+        assert watched["metrics"]["execution.distance_m"] == honest["metrics"]["execution.distance_m"] > 0
+        assert watched["unexported"] == {}
 
 
 def test_a_recording_that_a_component_changed_is_a_crash_of_the_run_and_no_mistake_of_the_user(record):

@@ -1,6 +1,8 @@
 """Copies that cannot be told from the original, and what is changed in them is found."""
 
 import ctypes
+from collections.abc import Sequence
+from fractions import Fraction
 
 import attrs
 import numpy as np
@@ -11,7 +13,7 @@ from hypothesis import strategies as st
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.builtin.assigners.identity import Identity
 from mrpbench_core.engine.own import _LARGE as LARGE
-from mrpbench_core.engine.own import Handed, _HandedCopies, difference, own
+from mrpbench_core.engine.own import Handed, _HandedCopies, difference, own, own_returned
 from mrpbench_core.testing.instances.problems import grid_of, problem_on
 
 LIAR = Identity()
@@ -83,3 +85,96 @@ def test_numbers_of_another_type_are_found():
     for one, other in (((1,), (True,)), ((1,), (1.0,)), ((0.0,), (-0.0,)), (((1, 2),), ((1,), (2,)))):
         assert difference(one, other, "it") == "it"
     assert difference((float("nan"), 2**70), (float("nan"), 2**70), "it") is None
+
+
+class LyingFloat(float):
+    def __float__(self):
+        return -1.0
+
+    def __lt__(self, other):
+        return True
+
+
+class LyingInt(int):
+    def __int__(self):
+        return -1
+
+    __index__ = __int__
+
+
+class LyingText(str):
+    def __str__(self):
+        return "lie"
+
+
+class LyingNumber(np.float64):
+    def __eq__(self, other):
+        return True
+
+    __hash__ = np.float64.__hash__
+
+
+class LyingList(list):
+    def __len__(self):
+        return 0
+
+
+class Growing(Sequence):
+    """Is longer each time."""
+
+    def __init__(self):
+        self.length = 0
+
+    def __len__(self):
+        self.length += 1
+        return self.length
+
+    def __getitem__(self, index):
+        if index >= self.length:
+            raise IndexError
+        return float(index)
+
+
+@pytest.mark.parametrize(
+    ("value", "plain"),
+    [
+        (LyingFloat(2.5), 2.5),
+        (LyingInt(3), 3),
+        (LyingText("truth"), "truth"),
+        (LyingNumber(2.5), 2.5),
+        (Fraction(1, 2), 0.5),
+        (LyingList([LyingInt(3)]), [3]),
+        ({LyingText("a"): LyingFloat(1.0)}, {"a": 1.0}),
+        ({1, 2}, {1, 2}),
+    ],
+)
+def test_values_of_derived_classes_become_plain_whatever_these_replace(value, plain):
+    copied = own(value)
+    assert type(copied) is type(plain)
+    assert copied == plain
+    if isinstance(plain, list | dict):
+        assert [*map(type, copied)] == [*map(type, plain)]
+
+
+def test_a_sequence_is_read_once():
+    growing = Growing()
+    growing.length = 2
+    copied = own(growing)
+    assert type(copied) is tuple
+    assert len(copied) == len(copied)
+
+
+@pytest.mark.parametrize("value", [iter([1]), object(), lambda: 1])
+def test_what_is_no_data_is_refused(value):
+    with pytest.raises(BrokenContractError, match="which is no data"):
+        own(value)
+
+
+def test_errors_about_what_was_returned_name_the_component():
+    def unreadable(_):
+        raise KeyboardInterrupt
+
+    odd = attrs.evolve(PROBLEM)
+    object.__setattr__(odd, "ready", type("Odd", (), {"__array__": unreadable})())
+    with pytest.raises(BrokenContractError, match=r"^the planner returned"):
+        own_returned(odd, "the planner")

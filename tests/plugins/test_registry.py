@@ -88,6 +88,7 @@ def test_a_name_that_two_distributions_offer_must_be_chosen(install):
         ("raise RuntimeError('two\\nlines')", "RuntimeError: two lines"),
         ("Godo = 1", "AttributeError"),
         ("def (:", "SyntaxError"),
+        ("raise BaseExceptionGroup('odd', [GeneratorExit()])", "BaseExceptionGroup: odd"),
     ],
 )
 def test_an_import_that_fails_names_distribution_version_and_cause(install, code, what):
@@ -146,6 +147,19 @@ def test_a_plugin_for_another_core_is_refused_before_it_is_imported(install, req
             "type cannot be resolved: name 'Nowhere'",
         ),
         ("@attrs.frozen(kw_only=True)\nclass Bad(Good):\n    plugin: int = 1", "has an option called `plugin`"),
+        (
+            """
+class Meta(type(Planner)):
+    def __hash__(cls):
+        raise SystemExit("no")
+
+@attrs.frozen(kw_only=True)
+class Bad(Planner, metaclass=Meta):
+    plan = None
+""",
+            "it cannot be examined: SystemExit: no",
+        ),
+        ("class Bad:\n    __class__ = property(lambda self: 1 / 0)\n\nBad = Bad()", "examined: ZeroDivisionError"),
     ],
 )
 def test_a_class_that_breaks_the_contract_says_how(install, body, what):

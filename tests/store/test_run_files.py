@@ -41,6 +41,15 @@ def test_links_and_fifos_that_an_exporter_left_are_passed_over(paths, tmp_path):
     assert len(seal(paths)) == 2
 
 
+@pytest.mark.parametrize("name", [b"a\nb", b"a\x1b[31m", b"\xff", b"folder\n/file"])
+def test_files_whose_names_no_line_can_hold_have_no_sum(paths, name):
+    file = os.path.join(os.fsencode(paths.exports), name)  # noqa: PTH118 - a name that is no text
+    os.makedirs(os.path.dirname(file), exist_ok=True)  # noqa: PTH103, PTH120
+    with open(file, "wb"):  # noqa: PTH123
+        pass
+    assert len(seal(paths)) == 2
+
+
 def test_another_recording_than_the_one_of_the_record_is_named(paths):
     record = {"provenance": {"files": seal(paths)}}
     check_recording(record, paths.recording)

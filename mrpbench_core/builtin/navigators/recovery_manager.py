@@ -79,6 +79,8 @@ class RecoveryManager:
         name, recovery = self._names[index], self._options.recoveries[index]
         self._next[robot] += 1
         session = recovery.start(self._robots[robot], self._surroundings(robot, pose), self._options.period)
+        if not isinstance(session, RecoverySession):
+            raise BrokenContractError(f"the recovery {name} returned {type(session).__name__} instead of a session")
         self._sessions[robot] = name, session
         self.recovering[robot] = True
         events.append(Event(stamp=now, kind="recovery", robot=robot, detail=name))

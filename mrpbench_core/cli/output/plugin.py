@@ -11,6 +11,7 @@ from mrpbench_core.api import Metric, hooks
 from mrpbench_core.api.component import Component
 from mrpbench_core.cli.input.plugin_name import hook_named, resolve
 from mrpbench_core.cli.output.table import print_table
+from mrpbench_core.plugins.importing import told
 from mrpbench_core.plugins.installed import Provider, load
 from mrpbench_core.plugins.provenance import kind_class, origin
 from mrpbench_core.plugins.registry import Registry
@@ -31,6 +32,11 @@ def facts_of(name: str) -> dict[str, Any]:
         return _facts_of_hook(hook)
     base, plugin = resolve(name)
     cls = Registry(base).get(plugin, Path.cwd())
+    with told(f"{Registry(base).kind} {plugin!r}"):
+        return _facts_of_component(cls)
+
+
+def _facts_of_component(cls: type[Component]) -> dict[str, Any]:
     facts: dict[str, Any] = origin(cls) | {"description": inspect.getdoc(cls) or ""} | _traits(cls)
     if issubclass(cls, Metric):
         facts["columns"] = [{key: getattr(column, key) for key in COLUMN} for column in cls.columns]

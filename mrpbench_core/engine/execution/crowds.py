@@ -13,7 +13,7 @@ from mrpbench_core.checking.recording import LARGEST
 from mrpbench_core.engine.execution.blockages import Blockages
 from mrpbench_core.engine.execution.faults import FaultEvent
 from mrpbench_core.engine.execution.gait import Gait
-from mrpbench_core.engine.own import own
+from mrpbench_core.engine.own import own, own_returned
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.model.common.arrays import Float, Int16, Int32
 from mrpbench_core.model.common.fleet import Fleet
@@ -82,7 +82,7 @@ class Crowds:
     def _add(self, session: CrowdSession) -> None:
         if not isinstance(session, CrowdSession):
             _refuse(f"{type(session).__name__} instead of a session")
-        members = own(tuple(session.members))
+        members = own_returned(tuple(session.members), "a crowd")
         for member in members:
             if not _exists(member):
                 _refuse(f"the member {member!r:.80}")
@@ -126,7 +126,7 @@ class Crowds:
             names = session.wanted_doors()
             if not isinstance(names, Set):
                 _refuse(f"{type(names).__name__} instead of a set of doors")
-            wanted |= names
+            wanted |= own_returned(frozenset(names), "a crowd")
         if wanted - self._doors:
             _refuse(f"doors that the world does not have: {', '.join(sorted(map(str, wanted - self._doors)))}")
         self._opened |= wanted
@@ -145,7 +145,8 @@ class Crowds:
         bodies[absent, :2], seen[absent, :4] = np.inf, np.inf
         return attrs.evolve(inputs, movers=bodies, mover_level=level, seen=seen)
 
-    def _joined(self, parts: Sequence[Movers]) -> Movers:
+    def _joined(self, given: Sequence[Movers]) -> Movers:
+        parts = [own_returned(part, "a crowd") for part in given]
         for part, (first, last) in zip(parts, pairwise(self._first), strict=True):
             size = int(last - first)
             if type(part) is not Movers:

@@ -50,7 +50,7 @@ class ExecutionLoop:
 
     def __init__(self, inputs: LoopInputs) -> None:
         self._inputs = inputs
-        context, given, components = inputs.context, inputs.given, inputs.components
+        context, given, components = inputs.context, inputs.handed.given, inputs.components
         plan = context.result.plan
         assert plan is not None
         assert given.result.plan is not None
@@ -77,9 +77,11 @@ class ExecutionLoop:
         dispatcher, localizer, navigator = components.dispatcher, components.localizer, components.navigator
         dispatching = dispatcher.start(given.problem, given.result.plan)
         self._dispatcher = check_returned(dispatcher, dispatching, DispatcherSession)
+        inputs.handed.check(dispatcher)
         placed, seed = self._state.pose.copy(), seed_of(*inputs.seeds, "localizer")
         localizing = localizer.start(given.fleet, given.world, placed, seed)
         self._localizer = check_returned(localizer, localizing, LocalizerSession)
+        inputs.handed.check(localizer)
         navigating = navigator.start(
             given.fleet,
             given.world,
@@ -89,13 +91,14 @@ class ExecutionLoop:
             seed_of(*inputs.seeds, "navigator"),
         )
         self._navigator = check_returned(navigator, navigating, NavigatorSession)
+        inputs.handed.check(navigator)
         self._facility_manager = FacilityManager(context.world, context.problem, plan)
         self._arrivals = Arrivals(context.routes, inputs.goal_tolerance)
         sets = Feature.GOAL_SETS in inputs.replanner.supports
         self._visits = Visits(context.problem, plan, inputs.goal_tolerance)
         self._reactions = Reactions(inputs.faults, robots, inputs.replanner.yaw, sets)
         self._standstill = Standstill(_patience(inputs), len(inputs.replanner.problem))
-        self._given_routes: Sequence[Route] = given.routes
+        self._shown_routes = self._shown(context.routes)
         self._returned = self._orders = self._given_orders = Orders(released=np.zeros(robots, "i4"))
         self._motion = Motion(
             twist=np.zeros((robots, 2)),
@@ -193,8 +196,8 @@ class ExecutionLoop:
                 self._driven.cut(new.cut)
                 self._motion = shifted(self._motion, new.cut)
                 self._arrivals.adopt(new.routes, new.cut, new.leads)
-                self._given_routes = own(new.routes)
-                self._navigator.adopt(self._given_routes, new.cut.copy())
+                self._shown_routes = self._shown(new.routes)
+                self._navigator.adopt(own(new.routes), new.cut.copy())
                 self._inputs.replanner.use(new.problem, new.plan)
                 self._checks.adopt(Paths.of(new.plan.paths).size, new.cut)
                 self._reactions.adopt()
@@ -328,7 +331,11 @@ class ExecutionLoop:
             )
             recorder.sample(self._step, sample, last)
         if inputs.stepped is not None:
-            inputs.stepped(now=now, state=own(state), observation=self._given, routes=self._given_routes)
+            inputs.stepped(now=now, state=own(state), observation=self._given, routes=self._shown_routes)
+
+    def _shown(self, routes: Sequence[Route]) -> Sequence[Route]:
+        """A copy of the routes for hooks, if there are any."""
+        return () if self._inputs.stepped is None else own(routes)
 
     def _simulate(self) -> None:
         """Let one control period pass."""

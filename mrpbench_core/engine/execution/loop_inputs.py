@@ -21,6 +21,7 @@ from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.replanning import Replanner
 from mrpbench_core.engine.execution.task_manager import TaskManager
+from mrpbench_core.engine.own import Handed
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.plugins.provenance import origin
@@ -96,8 +97,8 @@ class LoopInputs:
 
     context: RunContext
     """World, fleet, problem, plan and routes."""
-    given: RunContext
-    """A copy of it for components."""
+    handed: Handed[RunContext]
+    """A copy of it for components, which none of them may change."""
     components: LoopComponents
     crowds: Crowds
     """The people and other movers."""

@@ -18,14 +18,14 @@ from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.checking.assignment import check_queues
 from mrpbench_core.checking.tasks import task_fault
-from mrpbench_core.engine.contract_checks import check_released
+from mrpbench_core.engine.contract_checks import check_ended, check_released
 from mrpbench_core.engine.execution.destinations import Destinations, Errand, Errands, Places
 from mrpbench_core.engine.execution.planned_errands import PlannedErrands
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.engine.execution.queue_problems import QueueProblems
 from mrpbench_core.engine.execution.reactions import reaches
 from mrpbench_core.engine.execution.task_board import Job, TaskBoard, TaskEvent
-from mrpbench_core.engine.own import Handed, name_of, own
+from mrpbench_core.engine.own import Handed, name_of, own_returned
 from mrpbench_core.model.common.arrays import Bool, Int
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.scenario import Task
@@ -94,7 +94,7 @@ class TaskManager:
     @property
     def ended(self) -> bool:
         """True if all tasks are done and none will come."""
-        return self._stream.ended and not self._board.jobs
+        return check_ended(self._stream.ended) and not self._board.jobs
 
     @property
     def unfinished(self) -> Set[int]:
@@ -117,7 +117,7 @@ class TaskManager:
         """
         for robot in np.flatnonzero(given_up).tolist():
             self._board.give_up(now, robot)
-        tasks = [own(task) for task in check_released(self._stream.released(now, self._board.finished))]
+        tasks = check_released(self._stream.released(now, self._board.finished))
         for task in tasks:
             self._take(now, task)
         if (aborted != self._aborted).any():
@@ -199,7 +199,7 @@ class TaskManager:
         handed = Handed(problem, "the tasks")
         began = time.perf_counter()
         try:
-            queues = self._assigner.assign_queues(handed.given)
+            queues = own_returned(self._assigner.assign_queues(handed.given), "the assigner")
         except AssignmentError:
             return
         finally:

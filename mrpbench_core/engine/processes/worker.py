@@ -51,7 +51,10 @@ def execute_job(connection: socket.socket, hooks: Hooks, unpack: Unpack, execute
         found = _run(job, channel, hooks, unpack)
     flush()
     executed()
-    channel.send(found)
+    try:
+        channel.send(found)
+    except (TypeError, ValueError, RecursionError) as error:  # what a plugin declares may be no data
+        channel.send({"raised": describe(error)})
 
 
 def _call(function: str, arguments: list[Any]) -> dict[str, Any]:
@@ -90,7 +93,9 @@ def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks, unpack: Unpack
     )
     observers = Observers(
         planned=(lambda **seen: hooks.call("mrpbench_planned", **seen)) if hooks.has("mrpbench_planned") else None,
-        executing=lambda context: hooks.call("mrpbench_executing", context=context),
+        executing=(lambda **seen: hooks.call("mrpbench_executing", **seen))
+        if hooks.has("mrpbench_executing")
+        else None,
         stepped=(lambda **seen: hooks.call("mrpbench_stepped", **seen)) if hooks.has("mrpbench_stepped") else None,
         executed=lambda: hooks.call("mrpbench_executed"),
         progress=lambda **facts: channel.send({"progress": facts}),

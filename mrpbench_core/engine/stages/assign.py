@@ -9,7 +9,7 @@ from mrpbench_core.api.assigner import AssignmentError
 from mrpbench_core.checking.assignment import check_assignment
 from mrpbench_core.checking.scenario import check_travel
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.engine.contract_checks import check_returned
+from mrpbench_core.engine.contract_checks import check_copied
 from mrpbench_core.engine.origins import title
 from mrpbench_core.engine.own import Handed
 from mrpbench_core.engine.stage import Announce, RunEnded
@@ -45,7 +45,7 @@ def assign(config: RunConfig, instance: RunInstance, announce: Announce, timing:
     except AssignmentError as error:
         raise RunEnded(RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, str(error)) from error
     timing["assignment_s"] = time.perf_counter() - began
-    check_returned(assigner, assignment, Assignment)
+    assignment = check_copied(assigner, assignment, Assignment)
     handed.check(assigner)
     if faults := check_assignment(question, assignment):
         raise RunEnded(

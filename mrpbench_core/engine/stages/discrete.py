@@ -55,7 +55,7 @@ def execute_steps(inputs: RunInputs, context: RunContext, stream: TaskStream) ->
     timing["clock_bound"] = config.limits.iterations is None
     writer, exports = RecordingWriter(inputs.paths.recording, context), Exports()
     try:
-        exports.open(config.export, given, inputs.paths.exports)
+        exports.open(config.export, context, inputs.paths.exports)
         writer.write(channels)
         exports.write(channels)
     except BaseException:

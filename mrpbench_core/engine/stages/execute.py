@@ -31,7 +31,7 @@ from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.task_manager import TaskManager
 from mrpbench_core.engine.execution.worst_case import Adversary
-from mrpbench_core.engine.own import own
+from mrpbench_core.engine.own import Handed, own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.engine.stage import RunEnded, RunInputs
 from mrpbench_core.engine.stages.export import Exports
@@ -82,7 +82,7 @@ def execute_plan(
     context = attrs.evolve(context, movers=crowds.members)
     writer = RecordingWriter(inputs.paths.recording, context)
     exports = Exports()
-    given = own(context)
+    handed = Handed(context, "the context")
 
     def sink(chunk: Chunk) -> None:
         writer.write({name: rows for name, rows in chunk.items() if config.recording.scans or name[:5] != "scan_"})
@@ -91,7 +91,7 @@ def execute_plan(
     ended: RunEnded | None
     unarrived: dict[str, str] = {}
     try:
-        exports.open(config.export, given, inputs.paths.exports)
+        exports.open(config.export, context, inputs.paths.exports)
         wants_scans = config.recording.scans or bool(config.export)
         recorder = Recorder(
             config.recording.rate,
@@ -103,14 +103,15 @@ def execute_plan(
         )
         began = time.perf_counter()
         replanner = _replanner(inputs, context, router)
-        inputs.observers.executing(context=given)
+        if inputs.observers.executing is not None:
+            inputs.observers.executing(context=own(context))
         if config.execution == "schedule_only":
             result, draws = _follow_schedule(config, context, recorder, faults)
             if len(draws["draw"]) > 1:
                 sink(draws)
         else:
             tasks = None if stream is None else _tasks(config, context, stream, recorder)
-            result = _simulate(inputs, context, given, (poses, levels), crowds, recorder, replanner, faults, tasks)
+            result = _simulate(inputs, context, handed, (poses, levels), crowds, recorder, replanner, faults, tasks)
         unarrived = {context.fleet.names[robot]: reason for robot, reason in result.unarrived.items()}
         for robot, reason in result.unarrived.items():
             recorder.events([Event(stamp=result.simulated_s, kind="not_arrived", robot=robot, detail=reason)])
@@ -218,7 +219,7 @@ def _tasks(config: RunConfig, context: RunContext, stream: TaskStream, recorder:
 def _simulate(
     inputs: RunInputs,
     context: RunContext,
-    given: RunContext,
+    handed: Handed[RunContext],
     starts: tuple[Float, Int16],
     crowds: Crowds,
     recorder: Recorder,
@@ -236,7 +237,9 @@ def _simulate(
     seed = seed_of(*seeds, "simulator")
     radii = [mover.radius for mover in crowds.members]
     placed = poses.copy(), seed, context.period, radii
+    given = handed.given
     opened = config.simulator.open(given.world, given.fleet, *placed, levels=levels.copy())
+    handed.check(config.simulator)
     result: ExecutionResult | None = None
     with check_returned(config.simulator, opened, Simulation) as simulation:
         if not np.array_equal(simulation.state.level, levels):
@@ -244,7 +247,7 @@ def _simulate(
         loop = ExecutionLoop(
             LoopInputs(
                 context=context,
-                given=given,
+                handed=handed,
                 components=components,
                 crowds=crowds,
                 simulation=simulation,

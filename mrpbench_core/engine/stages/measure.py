@@ -11,7 +11,7 @@ import numpy as np
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.metric import Metric
 from mrpbench_core.engine.origins import title
-from mrpbench_core.engine.own import Handed
+from mrpbench_core.engine.own import Handed, own
 from mrpbench_core.files.errors import one_line
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.plugins.published import PUBLISHED
@@ -79,7 +79,7 @@ def _fault(measured: Mapping[str, Any], column: str) -> str | None:
 def _measured(metric: Metric, run: FinishedRun) -> tuple[Mapping[str, Any], str | None]:
     """The result of a metric, or the reason why it has none: its defects must not affect the run or other metrics."""
     try:
-        measured = metric.measure(run)
+        measured = own(metric.measure(run))
     except (Exception, SystemExit) as error:  # noqa: BLE001 - a plugin may raise anything
         traceback.print_exc()  # into the run's log
         return {}, f"the metric raised {one_line(error)} ({title(metric)})"

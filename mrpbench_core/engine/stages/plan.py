@@ -12,7 +12,8 @@ import attrs
 from mrpbench_core.api.planner import Planner, PlannerSession
 from mrpbench_core.checking.plan_result import result_fault
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.engine.own import Handed, own
+from mrpbench_core.engine.contract_checks import check_copied
+from mrpbench_core.engine.own import Handed, own_returned
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.engine.stage import RunEnded
 from mrpbench_core.files.errors import InputError
@@ -52,7 +53,7 @@ def call_planner(
     began, cpu = perf_counter(), cpu_s()
     if reason := planner.skip(handed.given):
         handed.check(planner)
-        raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, str(reason))
+        raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, check_copied(planner, reason, str))
     try:
         result = (session or planner.start()).plan(handed.given, budget)
     except InputError as error:  # no mistake of the user's any more: the problem was sound
@@ -64,25 +65,19 @@ def call_planner(
         "planning_peak_bytes": max(0, _peak() - before),
     }
     handed.check(planner)
-    if result_fault(result) is None:
-        result = own(result)  # judged and used by what it is now
+    sound = result_fault(result) is None
+    if sound:
+        result = own_returned(result, "the planner")  # judged and used by what it is now
         if seconds > budget.wall_s + LATE_S and result.status in (PlanStatus.SOLVED, PlanStatus.TIMEOUT):
             result = attrs.evolve(result, status=PlanStatus.TIMEOUT, plan=None)
-    timing["clock_bound"] = _clock_bound(result)
-    if history := _history(result):
-        timing["planning_history"] = history
+    timing["clock_bound"] = sound and (bool(result.clock_bound) or result.status == PlanStatus.TIMEOUT)
+    if sound and result.history:
+        timing["planning_history"] = _history(result)
     return result, timing
 
 
-def _clock_bound(result: Any) -> bool:
-    """The clock, not the search, decided what came out."""
-    return isinstance(result, PlanResult) and (bool(result.clock_bound) or result.status == PlanStatus.TIMEOUT)
-
-
-def _history(result: Any) -> list[list[float | None]]:
-    """The anytime curve as rows [seconds, cost, lower bound]; null for what is not known. [] for what is no curve."""
-    if result_fault(result) is not None:
-        return []
+def _history(result: PlanResult) -> list[list[float | None]]:
+    """The anytime curve as rows [seconds, cost, lower bound]; null for what is not known."""
     return [[value if math.isfinite(value) else None for value in attrs.astuple(point)] for point in result.history]
 
 

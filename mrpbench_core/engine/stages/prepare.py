@@ -9,8 +9,8 @@ from mrpbench_core.checking.context import check_instance
 from mrpbench_core.checking.doorways import check_doorways
 from mrpbench_core.config.identity import options_text
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.engine.contract_checks import check_drawn, check_made, check_returned, check_size
-from mrpbench_core.engine.own import Handed, difference, own
+from mrpbench_core.engine.contract_checks import check_copied, check_drawn, check_made, check_size
+from mrpbench_core.engine.own import Handed, difference
 from mrpbench_core.engine.stage import Announce, RunEnded
 from mrpbench_core.engine.stages.fleet import build_fleet, robot_model
 from mrpbench_core.files.errors import InputError
@@ -62,8 +62,8 @@ def build_run_instance(config: RunConfig, announce: Announce) -> RunInstance:
     roadmap = _roadmap(config.roadmap, world, fleet)
     announce(Stage.SCENARIO, {})
     handed = Handed((world, roadmap, fleet), "world, roadmap or fleet")
-    drawn = check_returned(config.scenario, config.scenario.draw(*handed.given, config.seed), Scenario)
-    scenario = own(check_drawn(drawn, len(fleet)))
+    drawn = check_copied(config.scenario, config.scenario.draw(*handed.given, config.seed), Scenario)
+    scenario = check_drawn(drawn, len(fleet))
     handed.check(config.scenario)
     check_made("the scenario", check_instance(world, scenario=scenario))
     if config.tasks is not None:
@@ -99,7 +99,7 @@ def _world(source: WorldSource) -> World:
     """Load the world, or take the one that was prepared."""
     if _WORLD and _WORLD[0][0] is source:
         return _WORLD[0][1]
-    world = own(check_returned(source, source.load(), World))
+    world = check_copied(source, source.load(), World)
     check_made("the world", check_instance(world))
     return world
 
@@ -109,7 +109,7 @@ def _roadmap(builder: RoadmapBuilder, world: World, fleet: Fleet) -> Roadmap:
     if _LAST and _LAST[0][0] == builder and difference((world, fleet), _LAST[0][1:3], "") is None:
         return _LAST[0][3]
     given = Handed((world, fleet), "world or fleet")
-    roadmap = own(check_returned(builder, builder.build(*given.given), Roadmap))
+    roadmap = check_copied(builder, builder.build(*given.given), Roadmap)
     given.check(builder)
     check_made("the roadmap", check_instance(world, roadmap))
     _LAST[:] = [(builder, world, fleet, roadmap)]

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.engine.own import Handed, name_of
+from mrpbench_core.engine.contract_checks import check_places, check_returned
+from mrpbench_core.engine.own import Handed
 from mrpbench_core.engine.stages.prepare import RunInstance
 from mrpbench_core.model.common.arrays import Int
 
@@ -16,15 +16,15 @@ def start_stream(config: RunConfig, instance: RunInstance) -> TaskStream | None:
         return None
     handed = Handed((instance.world, instance.roadmap, instance.fleet), "world, roadmap or fleet")
     stream = config.tasks.start(*handed.given, config.seed)
-    if not isinstance(stream, TaskStream):
-        raise BrokenContractError(f"{name_of(config.tasks)} returned {type(stream).__name__} instead of a stream")
+    check_returned(config.tasks, stream, TaskStream)
     handed.check(config.tasks)
     return stream
 
 
 def places_of(stream: TaskStream, instance: RunInstance) -> Int | None:
     """The vertices at which the tasks of a stream may have errands, if it says so."""
-    if stream.places is None:
+    places = check_places(stream.places)
+    if places is None:
         return None
-    vertices = np.unique(instance.roadmap.locate(*stream.places)).astype(np.int64)
+    vertices = np.unique(instance.roadmap.locate(*places)).astype(np.int64)
     return vertices[vertices >= 0]

@@ -3,7 +3,9 @@
 Nothing that it says can be proved here. It is required to say something about the run that it was given.
 """
 
+import logging
 import re
+import threading
 from collections.abc import Iterator
 from concurrent.futures import Executor, Future
 from contextlib import contextmanager
@@ -18,6 +20,9 @@ from mrpbench_core.engine.processes.slots import close_slots, run_in_slot
 from mrpbench_core.engine.record import RunRecord
 from mrpbench_core.files.errors import InputError, one_line
 
+LOG = logging.getLogger(__name__)
+PATIENCE_S = 60.0
+"""Seconds that a call of an executor may take before the user is told."""
 _SUM = re.compile(r"[0-9a-f]{64}  (?P<name>[^/]+/(?P<run>[^/]+).*)")
 
 
@@ -36,7 +41,7 @@ class Calls:
 
     def submit(self, job: Job) -> Future[JobOutcome]:
         """Hand over a run."""
-        with _named(self.source):
+        with _named(self.source, "submit"):
             future = self.executor.submit(run_in_slot, self.slots, job)
         if not isinstance(future, Future):
             _refuse(self.source, f"returned {type(future).__name__} instead of a Future")
@@ -48,7 +53,7 @@ class Calls:
         Raises:
             WorkerLost: the worker was lost.
         """
-        with _named(self.source):
+        with _named(self.source, "result"):
             outcome = future.result()
         try:
             fault = _fault(outcome, job)
@@ -61,33 +66,47 @@ class Calls:
     def end_slots(self) -> None:
         """End the worker slots in other processes."""
         if isinstance(self.executor, RemoteExecutor):
-            with _named(self.source):
+            with _named(self.source, "everywhere"):
                 self.executor.everywhere(close_slots, self.slots)
 
 
 @contextmanager
 def opened(source: ExecutorSource, workers: int, slots: str) -> Iterator[Calls]:
     """Open an executor, and shut it down in the end."""
-    with _named(source):
+    before = threading.enumerate()
+    with _named(source, "open"):
         executor = source.open(workers)
     if not isinstance(executor, Executor):
         _refuse(source, f"opened {type(executor).__name__} instead of a concurrent.futures.Executor")
     try:
         yield Calls(executor=executor, source=source, slots=slots)
     finally:
-        with _named(source):
+        with _named(source, "shutdown"):
             executor.shutdown(wait=True, cancel_futures=True)
+        for thread in threading.enumerate():
+            if thread not in before and not thread.daemon:
+                LOG.warning("the %s left the thread %r, without whose end no command ends", title(source), thread.name)
 
 
 @contextmanager
-def _named(source: ExecutorSource) -> Iterator[None]:
-    """Name the executor in errors that it raises."""
+def _named(source: ExecutorSource, call: str) -> Iterator[None]:
+    """Name the executor in errors that it raises, and say when a call of it takes long: nothing can end the call."""
+    timer = threading.Timer(PATIENCE_S, _remind, (source, call))
+    timer.daemon = True
+    if not type(source).__module__.startswith("mrpbench_core."):
+        timer.start()
     try:
         yield
     except (InputError, WorkerLost, KeyboardInterrupt):
         raise
     except BaseException as error:
         raise InputError(f"the {title(source)} raised {one_line(error)}") from error
+    finally:
+        timer.cancel()
+
+
+def _remind(source: ExecutorSource, call: str) -> None:
+    LOG.warning("the %s has not returned from %s after %g s (Ctrl-C ends it)", title(source), call, PATIENCE_S)
 
 
 def _refuse(source: ExecutorSource, what: str) -> NoReturn:

@@ -16,8 +16,11 @@ from mrpbench_core.engine.processes.channel import Channel, ClosedError, Garbled
 from mrpbench_core.engine.processes.child import ENDING_S
 from mrpbench_core.engine.processes.limits import IMPORT_S
 from mrpbench_core.plugins.hooks import DISABLE, LOG, Hooks, enabled_hooks
+from mrpbench_core.plugins.importing import told
 from mrpbench_core.plugins.installed import Provider
 
+CLOSING_S = 5.0
+"""Seconds from the end of a connection to the end of its process."""
 HOOK_S = 60.0
 """Seconds that a hook may take."""
 OBSERVED = ("mrpbench_study_started", "mrpbench_run_started", "mrpbench_run_finished", "mrpbench_study_finished")
@@ -51,8 +54,9 @@ def observers() -> list[dict[str, Any]]:
     found = []
     for provider in enabled_hooks():
         hooks = Hooks()
-        hooks.load(provider)
-        hooks.check()
+        with told(f"{provider.kind} {provider.name!r} of {provider.origin}"):
+            hooks.load(provider)
+            hooks.check()
         if any(map(hooks.has, OBSERVED)):
             found.append(attrs.asdict(provider))
     return found
@@ -63,7 +67,7 @@ class Observer:
 
     def __init__(self, provider: Provider) -> None:
         self.name = provider.name
-        self._start: dict[str, Any] | None = {"provider": attrs.asdict(provider), "parent": os.getpid()}
+        self._start: dict[str, Any] | None = {"provider": attrs.asdict(provider)}
         ours, theirs = socket.socketpair()
         with theirs:
             self._process = subprocess.Popen(
@@ -86,12 +90,12 @@ class Observer:
         return self._ask(message, HOOK_S)
 
     def close(self) -> None:
-        """End it, and all that it started in its session."""
+        """End it, and all that it started."""
         self._channel.shut_down()
         try:
             self._process.wait(ENDING_S)
         except subprocess.TimeoutExpired:
-            self._kill()
+            self._end()
         self._channel.close()
 
     def _ask(self, message: Mapping[str, Any], limit_s: float) -> str | None:
@@ -99,16 +103,26 @@ class Observer:
             self._channel.send(message)
             if self._channel.receive(limit_s) is not None:
                 return None
-            self._kill()
+            self._end()
             fault = f"it did not return within {limit_s:g} s"
-        except (ClosedError, GarbledError):
-            self._kill()
+        except GarbledError:
+            self._end()
+            fault = "it wrote to the connection of the engine"
+        except ClosedError:
+            with suppress(subprocess.TimeoutExpired):
+                self._process.wait(CLOSING_S)
+            self._end()
             code = self._process.returncode
             fault = f"its process ended with exit code {code}" if code >= 0 else f"its process ended by signal {-code}"
         self._channel.close()
         return fault
 
-    def _kill(self) -> None:
-        with suppress(ProcessLookupError):
-            os.killpg(self._process.pid, signal.SIGKILL)
-        self._process.wait()
+    def _end(self) -> None:
+        """Let it end what the plugin started; if the plugin keeps it from that, kill it."""
+        self._process.terminate()
+        try:
+            self._process.wait(ENDING_S)
+        except subprocess.TimeoutExpired:
+            with suppress(ProcessLookupError):
+                os.killpg(self._process.pid, signal.SIGKILL)
+            self._process.wait()

@@ -1,14 +1,20 @@
 """Whatever a plugin does, its run has a definite status and its neighbours go on."""
 
+import os
+import socket
 from pathlib import Path
 
 import psutil
 import pytest
 
 from mrpbench_core import load, run
+from mrpbench_core.engine.processes.channel import KEY_BYTES, Channel, new_key
+from mrpbench_core.engine.processes.output import flush
+from mrpbench_core.engine.processes.supervision import Supervision
 from mrpbench_core.engine.processes.supervisor import SERVERS
 from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.files.errors import InputErrors
+from mrpbench_core.model.runs.status import RunStatus
 
 
 def outcomes(study, does, **options):
@@ -115,3 +121,48 @@ def is_working(pid):
         return psutil.Process(pid).status() != psutil.STATUS_ZOMBIE
     except psutil.NoSuchProcess:
         return False
+
+
+class LateServer:
+    """A fork server whose messages are read after those of the process that it forked."""
+
+    pid = os.getpid()
+
+    def __init__(self):
+        self.messages = [{"importing": "planner 'odd'"}] * 2
+        self.connection = None
+
+    def fileno(self):
+        return 0
+
+    def fork(self, connection):
+        self.connection = connection.dup()
+
+    def receive(self, timeout_s=None):
+        return self.messages.pop()
+
+
+def test_an_import_that_is_over_is_not_what_a_later_failure_is_attributed_to(tmp_path):
+    job = {"log": str(tmp_path / "log"), "wall_s": 60.0, "memory_bytes": 2**40}
+    server, (ours, theirs) = LateServer(), socket.socketpair()
+    followed = Supervision(job, Channel(ours, new_key()), server, ())
+    assert followed._heed() == (None, True)
+    assert "while planner 'odd' was imported" in failure_of(followed)
+    run = Channel(server.connection, server.connection.recv(KEY_BYTES))
+    run.send({"stage": "planning", "at": 0.0})
+    assert followed._drain() is None
+    assert failure_of(followed) == "it ended"
+    assert followed._heed() == (None, True), "an older message of the fork server"
+    assert failure_of(followed) == "it ended"
+    for connection in (ours, theirs, server.connection, followed._connection):
+        connection.close()
+
+
+def failure_of(followed):
+    return followed._failure(RunStatus.CRASHED, "it ended")["failure"]["message"]
+
+
+@pytest.mark.parametrize("put", [None, object()])
+def test_buffers_are_emptied_whatever_a_plugin_put_in_the_place_of_the_output(monkeypatch, put):
+    monkeypatch.setattr("sys.stdout", put)
+    flush()

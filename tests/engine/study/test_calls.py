@@ -1,6 +1,8 @@
 """An executor is a plugin: what it returns is required to be about the run that it was given."""
 
 import re
+import threading
+import time
 import types
 from concurrent.futures import Executor, Future
 from pathlib import Path
@@ -12,6 +14,7 @@ from mrpbench_core import load
 from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.engine.processes.job import Failure, Job, JobOutcome
 from mrpbench_core.engine.record import RunRecord
+from mrpbench_core.engine.study import calls
 from mrpbench_core.engine.study.calls import Calls, opened
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.status import RunStatus, Stage
@@ -125,3 +128,20 @@ def test_a_study_whose_executor_fails_keeps_what_is_finished_and_ends_in_one_lin
     assert done.returncode == 2
     assert done.stderr == "the executor 'losing' of acme-executor 1.0 raised ValueError: no room\n"
     assert len(load("out")) == 1
+
+
+def test_a_call_that_takes_long_and_a_thread_that_stays_are_told_by_the_name_of_the_executor(monkeypatch, caplog):
+    monkeypatch.setattr(calls, "PATIENCE_S", 0.01)
+    ended = threading.Event()
+
+    class Slow(Executor):
+        def shutdown(self, wait=True, *, cancel_futures=False):
+            threading.Thread(target=ended.wait, name="stays").start()
+            time.sleep(0.1)
+
+    with opened(Given(executor=Slow()), 1, ""):
+        pass
+    ended.set()
+    late, left = (record.getMessage() for record in caplog.records)
+    assert re.fullmatch(r"the executor .*Given' has not returned from shutdown after 0.01 s \(Ctrl-C ends it\)", late)
+    assert re.fullmatch(r"the executor .*Given' left the thread 'stays', without whose end no command ends", left)

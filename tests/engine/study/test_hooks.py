@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import psutil
 import pytest
 
 from mrpbench_core import load
@@ -68,6 +69,7 @@ def test_a_plugin_observes_a_whole_study_in_one_process_and_cannot_write_into_re
         ("os._exit(3)", "its process ended with exit code 3"),
         ("ctypes.string_at(0)", "its process ended by signal 11"),
         ("os.closerange(3, 100)", "its process ended"),
+        ("[os.write(fd, b'junk' * 99) for fd in range(3, 9) if os.path.exists(f'/proc/self/fd/{fd}')]", "it wrote to"),
     ],
 )
 def test_a_hook_that_ends_its_process_costs_no_run(observed, does, said):
@@ -92,7 +94,30 @@ def test_a_hook_that_does_not_return_is_ended(study, publish, tmp_path, monkeypa
     assert Path("events.txt").read_text() == "run_finished x\n"
 
 
-@pytest.mark.parametrize("code", ["import os\nos._exit(3)", "import ctypes\nctypes.string_at(0)"])
+def test_what_a_hook_starts_ends_with_the_study_whatever_session_it_has(observed):
+    done = observed(OBSERVER.replace("{does}", STAYS))
+    assert (done.returncode, done.stderr) == (0, "")
+    pids = [int(pid) for pid in Path("pids.txt").read_text().split()]
+    assert len(pids) == 2
+    assert not any(map(psutil.pid_exists, pids))
+
+
+STAYS = """
+    if os.fork() == 0:
+        os.setsid()
+        with open("pids.txt", "a") as file:
+            print(os.getpid(), file=file)
+        time.sleep(1000)"""
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "import os\nos._exit(3)",
+        "import ctypes\nctypes.string_at(0)",
+        "import os\nfrom mrpbench_core.api import hookimpl\n@hookimpl\ndef mrpbench_check(): os._exit(0)",
+    ],
+)
 def test_a_hook_plugin_that_ends_the_process_when_it_is_imported_is_named_before_any_run(observed, code):
     done = observed(code)
     assert done.returncode == 2
