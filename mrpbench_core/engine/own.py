@@ -23,6 +23,7 @@ from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.files.errors import one_line
 from mrpbench_core.model.common.arrays import ARRAY, read_only
 from mrpbench_core.model.common.plain import plain_bytes
+from mrpbench_core.plugins.contract import is_of
 from mrpbench_core.plugins.kinds import kind_of
 
 T = TypeVar("T")
@@ -121,12 +122,12 @@ def _own_other(value: Any, known: _Copies) -> Any:
     kind = type(value)
     if isinstance(value, np.ndarray):
         return _own(np.array(value, subok=False), known)
-    if isinstance(value, type) or (isinstance(value, enum.Enum | np.generic) and kind.__module__.startswith(_OURS)):
+    if isinstance(value, type) or (isinstance(value, enum.Enum | np.generic) and is_of(kind, _OURS)):
         return value
     for plain, convert in _PLAIN.items():
         if isinstance(value, plain):
             return convert(value)
-    if hasattr(kind, "_fields") and kind.__module__.startswith(_OURS):
+    if hasattr(kind, "_fields") and is_of(kind, _OURS):
         return kind(*[_own(item, known) for item in value])
     for container in _CONTAINERS:
         if isinstance(value, container):
@@ -175,7 +176,7 @@ def _slots(kind: type) -> tuple[tuple[Any, ...], ...] | None:
     Raises:
         BrokenContractError: the class is not one of the model.
     """
-    if not kind.__module__.startswith("mrpbench_core.model."):
+    if not is_of(kind, "mrpbench_core.model."):
         base = next((cls.__name__ for cls in kind.__mro__ if cls.__module__.startswith("mrpbench_core.model.")), "it")
         raise BrokenContractError(f"a component returned the class {kind.__name__} instead of {base} itself")
     fields = attrs.fields(kind)

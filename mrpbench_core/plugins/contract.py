@@ -1,6 +1,7 @@
 """Check, when a class is chosen, that it is a valid component."""
 
 import inspect
+import sys
 import typing
 from typing import Any, ClassVar
 
@@ -8,11 +9,15 @@ import attrs
 
 from mrpbench_core.api.component import Component
 
+CORE = "mrpbench_core."
+
 
 def violation(cls: Any, base: type[Component]) -> str | None:
     """Return why `cls` is not a component of the kind `base`, as a predicate for its name, or None."""
     if not isinstance(cls, type) or not issubclass(cls, base):
         return f"is not a subclass of {base.__name__}"
+    if cls.__module__.startswith(CORE) and not is_of(cls, CORE):
+        return f"says that it is of the module {cls.__module__}, where it is not"
     if inspect.isabstract(cls):
         return f"lacks the methods {', '.join(sorted(cls.__abstractmethods__))}"
     if "__attrs_attrs__" not in vars(cls) or not _frozen(cls):
@@ -28,6 +33,16 @@ def violation(cls: Any, base: type[Component]) -> str | None:
             f"has annotated public names that are not options: {', '.join(strays)} (write `name: type = option(...)`)"
         )
     return None
+
+
+def is_of(cls: type, package: str | tuple[str, ...]) -> bool:
+    """Tell whether a class is of a module whose name begins with `package`, and does not only say so."""
+    if not str(cls.__module__).startswith(package):
+        return False
+    found: Any = sys.modules.get(cls.__module__)
+    for name in cls.__qualname__.split("."):
+        found = getattr(found, name, None)
+    return found is cls
 
 
 def _frozen(cls: type[Component]) -> bool:

@@ -14,6 +14,7 @@ from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.builtin.assigners.identity import Identity
 from mrpbench_core.engine.own import _LARGE as LARGE
 from mrpbench_core.engine.own import Handed, _HandedCopies, difference, own, own_returned
+from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.instances.problems import grid_of, problem_on
 
 LIAR = Identity()
@@ -168,6 +169,14 @@ def test_a_sequence_is_read_once():
 def test_what_is_no_data_is_refused(value):
     with pytest.raises(BrokenContractError, match="which is no data"):
         own(value)
+
+
+def test_a_class_is_not_of_the_module_that_it_says():
+    model = type("Problem", (Problem,), {"__module__": Problem.__module__})
+    with pytest.raises(BrokenContractError, match="the class Problem instead of Problem itself"):
+        own(object.__new__(model))
+    number = type("float64", (np.float64,), {"__module__": "numpy"})
+    assert type(own(number(1.5))) is float
 
 
 def test_errors_about_what_was_returned_name_the_component():

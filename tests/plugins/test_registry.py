@@ -148,6 +148,10 @@ def test_a_plugin_for_another_core_is_refused_before_it_is_imported(install, req
         ),
         ("@attrs.frozen(kw_only=True)\nclass Bad(Good):\n    plugin: int = 1", "has an option called `plugin`"),
         (
+            "@attrs.frozen(kw_only=True)\nclass Bad(Good):\n    __module__ = 'mrpbench_core.api.planner'",
+            "says that it is of the module mrpbench_core.api.planner, where it is not",
+        ),
+        (
             """
 class Meta(type(Planner)):
     def __hash__(cls):
