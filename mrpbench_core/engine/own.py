@@ -25,6 +25,7 @@ from mrpbench_core.model.common.arrays import ARRAY, read_only
 from mrpbench_core.model.common.plain import plain_bytes
 from mrpbench_core.plugins.contract import is_of
 from mrpbench_core.plugins.kinds import kind_of
+from mrpbench_core.plugins.provenance import components_in, is_of_others
 
 T = TypeVar("T")
 _PLAIN: dict[type, Any] = {int: int.__int__, float: float.__float__, str: str.__str__}
@@ -264,12 +265,18 @@ class Handed(Generic[T]):
         self._name = name
         self.given: T = _own(kept, _HandedCopies())
 
-    def check(self, component: Component) -> None:
+    def check(self, component: Component, *others: Component) -> None:
         """Require that the copy is unchanged.
 
+        Args:
+            component: has just been called.
+            others: components that it calls, besides those that are options of it.
+
         Raises:
-            BrokenContractError: it was changed by a component, which has just been called.
+            BrokenContractError: it was changed; components of other projects are named first.
         """
         if (where := difference(self.given, self._kept, self._name)) is not None:
             _HandedCopies.arrays.clear()
-            raise BrokenContractError(f"{name_of(component)} changed {where}")
+            called = filter(is_of_others, components_in((component, *others)))
+            names = " or ".join(map(name_of, called)) or name_of(component)
+            raise BrokenContractError(f"{names} changed {where}")

@@ -11,7 +11,9 @@ import attrs
 from mrpbench_core.api.component import Component
 from mrpbench_core.files.text import read_bytes
 from mrpbench_core.plugins.checkout import direct_url
+from mrpbench_core.plugins.installed import CORE
 from mrpbench_core.plugins.local import source_of
+from mrpbench_core.plugins.published import PUBLISHED
 from mrpbench_core.plugins.registry import Registry
 
 
@@ -56,6 +58,12 @@ def origin(cls: type[Component], folder: Path | None = None) -> dict[str, Any]:
         if url := direct_url(provider.distribution):
             found["direct_url"] = url
     return found
+
+
+def is_of_others(component: Component) -> bool:
+    """Tell whether a component is not of this project."""
+    provider = Registry(kind_class(type(component))).provider_of(type(component))
+    return provider is None or provider.distribution not in (CORE, *PUBLISHED)
 
 
 def kind_class(cls: type[Component]) -> type[Component]:

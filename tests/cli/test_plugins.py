@@ -72,3 +72,15 @@ def test_a_plugin_that_ends_the_process_when_it_is_imported_is_named(mrpbench, t
     assert "./ending.py:Mine cannot be shown: " in error
     assert "ended with exit code 3" in error
     assert error.count("\n") == 1
+
+
+def test_a_class_whose_distribution_is_not_known_is_shown(mrpbench, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "mine.py").write_text(
+        "import attrs\nfrom mrpbench_core.api import Planner\n"
+        "@attrs.frozen(kw_only=True)\nclass Mine(Planner):\n    def plan(self, problem, budget): ...\n"
+    )
+    assert mrpbench("plugins", "show", "./mine.py:Mine")[1].startswith("planner mine.py:Mine, from mine.py\n")
+    with (tmp_path / "mine.py").open("a") as file:
+        file.write("Mine.__module__ = 'no.such.module'\n")
+    assert mrpbench("plugins", "show", "./mine.py:Mine")[1].startswith("planner no.such.module:Mine, from no file\n")

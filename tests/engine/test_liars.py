@@ -17,6 +17,7 @@ import time
 import attrs
 import numpy as np
 
+from mrpbench_core.api import Controller, ControllerSession
 from mrpbench_core.api import Assigner, Dispatcher, Localizer, LocalizerSession, Metric, Column, Planner, option
 from mrpbench_core.api.exporter import Exporter, ExporterSession
 from mrpbench_core.api.navigator import Navigator, NavigatorSession
@@ -111,6 +112,18 @@ class LyingNavigator(Navigator):
 def speed_up(fleet):
     for robot in fleet.robots:
         object.__setattr__(robot, "max_speed", 99.0)
+
+
+@attrs.frozen(kw_only=True)
+class LyingController(Controller):
+    def start(self, robot, world, period):
+        object.__setattr__(robot, "max_speed", 99.0)
+        return Stop()
+
+
+class Stop(ControllerSession):
+    def command(self, observation):
+        return 0.0, 0.0
 
 
 class _Shift(LocalizerSession):
@@ -256,6 +269,10 @@ def liar(name, **options):
         (
             {"localizer": liar("Localizer", changes=True), "grant_truth": True},
             "the localizer LyingLocalizer changed the context.fleet.robots.max_speed",
+        ),
+        (
+            {"controller": liar("Controller")},
+            "the controller LyingController changed the context.fleet.robots.max_speed",
         ),
         ({"simulator": liar("Simulator", how="teleport")}, "for robot 0: a position that it cannot have reached"),
         ({"simulator": liar("Simulator", how="placement")}, "for robot 0: a position that it cannot have reached"),

@@ -46,7 +46,8 @@ def _facts_of_component(cls: type[Component]) -> dict[str, Any]:
 
 def print_facts(facts: dict[str, Any]) -> None:
     """Print a plugin for people."""
-    print(f"{facts['kind']} {facts['name']}, from {facts['distribution']} {facts['version']}")
+    place = f"{facts['distribution']} {facts['version']}" if "distribution" in facts else facts.get("file", "no file")
+    print(f"{facts['kind']} {facts['name']}, from {place}")
     print(facts["description"])
     for key in ("supports", "promises", "requires", "hooks"):
         if key in facts:

@@ -91,7 +91,7 @@ class ExecutionLoop:
             seed_of(*inputs.seeds, "navigator"),
         )
         self._navigator = check_returned(navigator, navigating, NavigatorSession)
-        inputs.handed.check(navigator)
+        inputs.handed.check(navigator, components.controller)
         self._facility_manager = FacilityManager(context.world, context.problem, plan)
         self._arrivals = Arrivals(context.routes, inputs.goal_tolerance)
         sets = Feature.GOAL_SETS in inputs.replanner.supports

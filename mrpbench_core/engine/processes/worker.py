@@ -4,6 +4,7 @@ Plugins run here. What they print, in Python or in native code, goes to the run'
 """
 
 import errno
+import faulthandler
 import importlib
 import os
 import resource
@@ -45,6 +46,8 @@ def execute_job(connection: socket.socket, hooks: Hooks, unpack: Unpack, execute
     append_to(job["log"])
     tell_imports(lambda plugin: channel.send({"importing": plugin}))
     if "call" in job:
+        if not os.environ.get("MRPBENCH_TRACEBACK"):
+            faulthandler.disable()  # its output would be that of the command
         os.chdir(job["folder"])
         found = _call(job["call"], job["arguments"])
     else:

@@ -14,8 +14,7 @@ from mrpbench_core.engine.origins import title
 from mrpbench_core.engine.own import Handed, own
 from mrpbench_core.files.errors import one_line
 from mrpbench_core.model.runs.run import FinishedRun
-from mrpbench_core.plugins.published import PUBLISHED
-from mrpbench_core.plugins.registry import Registry
+from mrpbench_core.plugins.provenance import is_of_others
 from mrpbench_core.store.recording import Recording
 
 NUMBER = int | float | np.integer | np.floating | np.bool_
@@ -30,7 +29,7 @@ def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, 
     values: dict[str, Any] = {}
     reasons: dict[str, str] = {}
     handed = Handed(run.context, "the context")
-    for name, metric in sorted(metrics.items(), key=lambda entry: _of_others(entry[1])):
+    for name, metric in sorted(metrics.items(), key=lambda entry: is_of_others(entry[1])):
         reason = _obstacle(metric.requires, run) or (None if metric.requires or run.planned else "planned by others")
         if reason is not None:
             reasons[name] = reason
@@ -54,12 +53,6 @@ def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, 
                 value = None
             values[key] = value
     return values, reasons
-
-
-def _of_others(metric: Metric) -> bool:
-    """Tell whether a metric is not of this project."""
-    provider = Registry(Metric).provider_of(type(metric))  # type: ignore[type-abstract]
-    return provider is None or provider.distribution not in PUBLISHED
 
 
 def _fault(measured: Mapping[str, Any], column: str) -> str | None:

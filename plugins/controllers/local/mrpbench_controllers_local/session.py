@@ -63,6 +63,10 @@ class LocalSession(FleetControllerSession):
             )
             others = [critic for critic in settings.critics if not isinstance(critic, NativeCritic) and critic.weight]
             started = [(type(critic).__name__, critic.weight, critic.start(robot, world)) for critic in others]
+            for name, _, session in started:
+                if not isinstance(session, CriticSession):
+                    what = type(session).__name__
+                    raise BrokenContractError(f"the critic {name} returned {what} instead of a session")
             self._in_python.append(started)
         self._scored = any(self._in_python)
         """Whether any robot has critics in Python."""
@@ -133,8 +137,12 @@ class LocalSession(FleetControllerSession):
         trajectories = Trajectories(twist=twist, pose=pose, path=self._seen.path(row), yaw=float(self._seen.yaw[row]))
         total = np.zeros(len(twist))
         for name, scale, critic in self._in_python[robot]:
-            scores = np.asarray(critic.score(trajectories), float)
+            returned = critic.score(trajectories)
+            try:
+                scores = np.array(returned, float)
+            except (TypeError, ValueError) as error:
+                raise BrokenContractError(f"the critic {name} returned no scores: {error}") from error
             if scores.shape != total.shape or np.isnan(scores).any():
-                raise BrokenContractError(f"the critic {name} returned {scores!r} for {len(total)} trajectories")
+                raise BrokenContractError(f"the critic {name} returned {scores!r:.60} for {len(total)} trajectories")
             total += scale * scores
         return total
