@@ -1,8 +1,8 @@
 """The files of a run on disk, and their SHA-256 in its record."""
 
 import os
-import stat
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from hashlib import file_digest
 from pathlib import Path
 from typing import Any
@@ -74,18 +74,20 @@ def _named(record: Mapping[str, Any]) -> Iterator[str]:
 def _tree(folder: Path) -> tuple[list[Path], list[Path]]:
     """All files and folders from a folder on, without symbolic links and whatever else a plugin left there.
 
-    A line of a record cannot hold each name that a file may have: those that cannot be printed are left out.
+    A line of a record cannot hold each name that a file may have: those that cannot be printed are left out, and so are
+    those of paths that are too long.
     """
-    files, folders = [], []
-    for name, _, inside in os.walk(folder):
-        folders.append(Path(name))
-        if str(Path(name).relative_to(folder)).isprintable():
-            files += [file for entry in inside if entry.isprintable() and _is_file(file := Path(name, entry))]
+    files, folders, waiting = [], [], [folder] if folder.is_dir() else []
+    while waiting:  # `os.walk` calls itself for each level
+        here = waiting.pop()
+        with suppress(OSError), os.scandir(here) as found:
+            folders.append(here)
+            for entry in filter(lambda entry: entry.name.isprintable(), found):
+                if entry.is_dir(follow_symlinks=False):
+                    waiting.append(here / entry.name)
+                elif entry.is_file(follow_symlinks=False):
+                    files.append(here / entry.name)
     return sorted(files), folders
-
-
-def _is_file(file: Path) -> bool:
-    return stat.S_ISREG(file.lstat().st_mode)
 
 
 def _sealed(file: Path) -> str:

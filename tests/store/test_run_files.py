@@ -6,6 +6,7 @@ import subprocess
 import pytest
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.removal import remove_tree
 from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_core.store.run_files import check_recording, seal
 
@@ -48,6 +49,17 @@ def test_files_whose_names_no_line_can_hold_have_no_sum(paths, name):
     with open(file, "wb"):  # noqa: PTH123
         pass
     assert len(seal(paths)) == 2
+
+
+def test_thousands_of_nested_folders_are_read(paths):
+    deep = str(paths.exports)
+    for _ in range(1500):
+        deep += "/d"
+        os.mkdir(deep)  # noqa: PTH102 - thousands of paths
+    try:
+        assert len(seal(paths)) == 2
+    finally:
+        remove_tree(paths.exports)
 
 
 def test_another_recording_than_the_one_of_the_record_is_named(paths):
