@@ -1,12 +1,13 @@
 """The SHA-256 of the files of a run."""
 
+import inspect
 import os
 import subprocess
+import sys
 
 import pytest
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.removal import remove_tree
 from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_core.store.run_files import check_recording, seal
 
@@ -51,15 +52,18 @@ def test_files_whose_names_no_line_can_hold_have_no_sum(paths, name):
     assert len(seal(paths)) == 2
 
 
-def test_thousands_of_nested_folders_are_read(paths):
-    deep = str(paths.exports)
-    for _ in range(1500):
-        deep += "/d"
-        os.mkdir(deep)  # noqa: PTH102 - thousands of paths
+def test_nested_folders_are_read_without_recursion(paths):
+    deep, levels = paths.exports, 200
+    for _ in range(levels):
+        deep /= "d"
+        deep.mkdir()
+    limit = sys.getrecursionlimit()
+    sys.setrecursionlimit(len(inspect.stack()) + levels // 2)
     try:
-        assert len(seal(paths)) == 2
+        found = seal(paths)
     finally:
-        remove_tree(paths.exports)
+        sys.setrecursionlimit(limit)
+    assert len(found) == 2
 
 
 def test_another_recording_than_the_one_of_the_record_is_named(paths):
