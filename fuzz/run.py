@@ -45,34 +45,38 @@ class Run:
         self.corpus.mkdir(parents=True, exist_ok=True)
         self.count = self.refused = 0
         self.known: set[str] = set()
-        self.began = time.process_time()
+        self.refusals: set[int] = set()
+        self.began, self.seconds = time.process_time(), 0.0
         self.folder = tempfile.TemporaryDirectory(
             prefix="mrpbench-fuzz-", dir=MEMORY_FILES if MEMORY_FILES.is_dir() else None
         )
+        tempfile.tempdir = self.folder.name  # of copies that readers make
         self._file = Path(self.folder.name) / reader.file
 
-    def read(self, data: bytes) -> None:
-        """Let the reader read one input."""
+    def read(self, data: bytes, *, again: bool = False) -> None:
+        """Let the reader read one input, which counts unless it is read `again`."""
         from mrpbench_core.files.errors import InputError, InputErrors
 
-        self.count += 1
+        self.count += not again
         self._file.write_bytes(data)
-        began = time.process_time()
+        began = time.monotonic()
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
                 self.reader.read(self._file)
-        except InputErrors:
-            self.refused += 1
-        except InputError as error:
-            self.refused += 1
-            if "\n" in str(error):
+        except (InputError, InputErrors) as error:
+            self.refused += not again
+            self.refusals.add(hash(data))
+            if isinstance(error, InputError) and "\n" in str(error):
                 self._keep(data, f"more than one line: {error!r}", "lines")
         except Exception as error:  # noqa: BLE001 - which is what this looks for
             frame = traceback.extract_tb(error.__traceback__)[-1]
             self._keep(data, traceback.format_exc(), f"{type(error).__name__} {frame.filename}:{frame.lineno}")
-        if (seconds := time.process_time() - began) > INPUT_S:
-            self._keep(data, f"took {seconds:.0f} s", "time")
+        if not again and time.monotonic() - began > INPUT_S:  # CPU time, which says what it took, takes 1 ms to ask for
+            began = time.process_time()
+            self.read(data, again=True)
+            if (seconds := time.process_time() - began) > INPUT_S:
+                self._keep(data, f"took {seconds:.0f} s", "time")
 
     def _keep(self, data: bytes, what: str, place: str) -> None:
         if place in self.known:
@@ -82,6 +86,12 @@ class Run:
         file = self.failures / hashlib.sha256(data).hexdigest()[:16]
         file.write_bytes(data)
         print(f"FAILED {self.reader.name}: {what}\n  the input is {file}", flush=True)
+
+    def over(self, inputs: int, seconds: float) -> bool:
+        """Whether as many inputs were read, or as much CPU time taken."""
+        if self.count % 100 == 0:
+            self.seconds = time.process_time() - self.began
+        return self.count >= inputs or self.seconds >= seconds
 
     def end(self) -> int:
         """Print what was read; 1 if something failed."""
@@ -100,7 +110,7 @@ def read_at_random(run: Run, inputs: int, seconds: float, seed: int) -> int:
     pool = [*run.reader.seeds(), *(file.read_bytes() for file in sorted(run.corpus.iterdir()))]
     for data in pool:
         run.read(data)
-    while run.count < inputs and time.process_time() - run.began < seconds:
+    while not run.over(inputs, seconds):
         data = rng.choice(pool)
         for _ in range(rng.choice((1, 1, 1, 2, 5))):
             data = run.reader.mutate(data, rng)
@@ -118,16 +128,30 @@ def read_covering(run: Run, inputs: int, seconds: float, seed: int) -> None:
         (begin / str(number)).write_bytes(data)
     rng = random.Random(seed)
 
+    sound = {hash(data): data for data in run.reader.seeds()}
+
     def change(data: bytes, largest: int, _seed: int) -> bytes:
-        changed = run.reader.mutate(data, rng) if rng.random() < 0.7 else atheris.Mutate(data, largest)
+        """Mostly a change of an input that was not refused: what is changed in a broken zip is never reached."""
+        if hash(data) not in run.refusals:
+            sound[hash(data)] = data
+        elif rng.random() < 0.9:
+            data = rng.choice(list(sound.values()))
+        changed = run.reader.mutate(data, rng) if rng.random() < 0.8 else atheris.Mutate(data, largest)
         return bytes(changed[:largest])
 
     def read(data: bytes) -> None:
         run.read(data)
-        if run.count >= inputs or time.process_time() - run.began >= seconds:
+        if run.over(inputs, seconds):
             os._exit(run.end())
 
-    options = [f"-runs={2 * inputs}", f"-seed={seed}", f"-max_len={LARGEST}", "-rss_limit_mb=0", "-timeout=600"]
+    options = [
+        f"-runs={2 * inputs}",
+        f"-seed={seed}",
+        f"-max_len={LARGEST}",
+        "-rss_limit_mb=0",
+        "-timeout=600",
+        "-mutate_depth=1",
+    ]
     atheris.Setup([sys.argv[0], *options, str(run.corpus), str(begin)], read, custom_mutator=change)
     atheris.Fuzz()
 

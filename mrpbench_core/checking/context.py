@@ -178,6 +178,8 @@ def _problem(problem: Problem, robots: int, levels: int) -> Iterator[str]:
     if len(problem.since):
         yield from _one_each("problem.since", problem.since, robots)
     yield from _finite("problem.radius", problem.radius)
+    if (problem.radius < 0).any():
+        yield "problem.radius is negative"
     yield from _indices("problem.profile", problem.profile, len(roadmap.duration))
     vertices = len(roadmap.position)
     yield from _indices("problem.start", problem.start, vertices)

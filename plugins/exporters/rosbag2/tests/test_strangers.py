@@ -152,3 +152,27 @@ def test_a_database_of_an_unknown_type_is_refused(tmp_path):
     file = sqlite(tmp_path / "own.db3", "acme_msgs/msg/Place", [(1, b"\x00\x01\x00\x00")])
     with pytest.raises(InputError, match=r"holds no pose of any robot.*acme_msgs/Place"):
         FromRosbag2().read(file)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("UPDATE topics SET name = x'2f61'", "a topic has no name"),
+        ("UPDATE messages SET timestamp = x'' WHERE id > 3", "a message has no time"),
+        ("UPDATE messages SET timestamp = 1e300 WHERE id > 3", "a message has no time"),
+    ],
+)
+def test_a_database_with_values_of_other_kinds_is_damaged_there(tmp_path, change, said):
+    data = [(int((5 + t) * 1e9), stamped(5 + t, 2 * t, 1.0)) for t in range(8)]
+    file = sqlite(tmp_path / "old.db3", "geometry_msgs/msg/PoseStamped", data)
+    with sqlite3.connect(file) as base:
+        base.execute(change)
+    base.close()
+    if "topic" in said:
+        with pytest.raises(InputError, match=said):
+            FromRosbag2().read(file)
+    else:
+        observed = FromRosbag2().read(file)
+        assert len(observed.tracks[0].time) == 4
+        assert not observed.complete
+        assert any(said in note for note in observed.notes)
