@@ -47,10 +47,7 @@ class Run:
         self.known: set[str] = set()
         self.refusals: set[int] = set()
         self.began, self.seconds = time.process_time(), 0.0
-        self.folder = tempfile.TemporaryDirectory(
-            prefix="mrpbench-fuzz-", dir=MEMORY_FILES if MEMORY_FILES.is_dir() else None
-        )
-        tempfile.tempdir = self.folder.name  # of copies that readers make
+        self.folder = tempfile.TemporaryDirectory(prefix="mrpbench-fuzz-")
         self._file = Path(self.folder.name) / reader.file
 
     def read(self, data: bytes, *, again: bool = False) -> None:
@@ -173,6 +170,8 @@ def main() -> int:
         print("Atheris is not installed, so inputs are changed at random, without regard to coverage")
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
     logging.disable()
+    if MEMORY_FILES.is_dir():
+        tempfile.tempdir = str(MEMORY_FILES)
     if covering and len(given.readers) == 1:
         import atheris
 
