@@ -30,6 +30,8 @@ INPUT_S = 20.0
 """CPU seconds after which an input counts as a failure."""
 MEMORY_FILES = Path("/dev/shm")  # noqa: S108 - folders in it have random names
 """Folder for files in memory: readers that write bring what they write to disk, which takes milliseconds."""
+TURN = 50_000
+"""Inputs of a process with Atheris."""
 LARGEST = 2**20
 """Bytes of an input that Atheris makes."""
 INSTRUMENTED = ("mrpbench_core", "mrpbench_exporters_rosbag2", "mrpbench_controllers_dwb", "mrpbench_localizers_amcl")
@@ -86,7 +88,7 @@ class Run:
 
     def over(self, inputs: int, seconds: float) -> bool:
         """Whether as many inputs were read, or as much CPU time taken."""
-        if self.count % 100 == 0:
+        if self.count % 100 == 0 or self.count >= inputs:
             self.seconds = time.process_time() - self.began
         return self.count >= inputs or self.seconds >= seconds
 
@@ -116,15 +118,15 @@ def read_at_random(run: Run, inputs: int, seconds: float, seed: int) -> int:
 
 
 def read_covering(run: Run, inputs: int, seconds: float, seed: int) -> None:
-    """Read what Atheris makes; it ends the process."""
+    """Read what Atheris makes; it ends the process. What earlier ones kept is read again, and does not count."""
     import atheris
 
+    run.count = -len(list(run.corpus.iterdir()))
     begin = Path(run.folder.name) / "seeds"
     begin.mkdir()
     for number, data in enumerate(run.reader.seeds()):
         (begin / str(number)).write_bytes(data)
     rng = random.Random(seed)
-
     sound = {hash(data): data for data in run.reader.seeds()}
 
     def change(data: bytes, largest: int, _seed: int) -> bytes:
@@ -141,16 +143,21 @@ def read_covering(run: Run, inputs: int, seconds: float, seed: int) -> None:
         if run.over(inputs, seconds):
             os._exit(run.end())
 
-    options = [
-        f"-runs={2 * inputs}",
-        f"-seed={seed}",
-        f"-max_len={LARGEST}",
-        "-rss_limit_mb=0",
-        "-timeout=600",
-        "-mutate_depth=1",
-    ]
+    options = [f"-seed={seed}", f"-max_len={LARGEST}", "-rss_limit_mb=0", "-timeout=600", "-mutate_depth=1"]
     atheris.Setup([sys.argv[0], *options, str(run.corpus), str(begin)], read, custom_mutator=change)
     atheris.Fuzz()
+
+
+def in_turns(reader: str, given: argparse.Namespace) -> int:
+    """Let child processes read with Atheris, which keeps the memory of each input that a mutator returned."""
+    worst = 0
+    for number, read in enumerate(range(0, given.inputs, TURN)):
+        inputs = min(TURN, given.inputs - read)
+        shares = {"inputs": inputs, "seconds": given.seconds * inputs / given.inputs, "seed": given.seed + number}
+        options = [f"--{name}={value}" for name, value in {**shares, "corpus": given.corpus}.items()]
+        done = subprocess.run([sys.executable, __file__, reader, "--turn", *options], check=False)
+        worst = max(worst, abs(done.returncode))
+    return worst
 
 
 def main() -> int:
@@ -163,6 +170,7 @@ def main() -> int:
         "--corpus", type=Path, default=Path("build/fuzz"), metavar="FOLDER", help="default: %(default)s"
     )
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--turn", action="store_true", help=argparse.SUPPRESS)  # for one reader
     parser.add_argument("--plain", action="store_true", help="change inputs at random, without regard to coverage")
     given = parser.parse_args()
     covering = not given.plain and importlib.util.find_spec("atheris") is not None
@@ -172,7 +180,7 @@ def main() -> int:
     logging.disable()
     if MEMORY_FILES.is_dir():
         tempfile.tempdir = str(MEMORY_FILES)
-    if covering and len(given.readers) == 1:
+    if covering and given.turn:
         import atheris
 
         with atheris.instrument_imports(include=list(INSTRUMENTED)):
@@ -189,8 +197,7 @@ def main() -> int:
         parser.error(f"no reader is named {', '.join(unknown)}; there are {', '.join(READERS)}")
     names = given.readers or list(READERS)
     if covering:
-        options = [f"--{name}={getattr(given, name)}" for name in ("inputs", "seconds", "corpus", "seed")]
-        return max(subprocess.run([sys.executable, __file__, name, *options], check=False).returncode for name in names)
+        return max(in_turns(name, given) for name in names)
     runs = (Run(READERS[name], given.corpus) for name in names)
     return max([read_at_random(run, given.inputs, given.seconds, given.seed) for run in runs])
 

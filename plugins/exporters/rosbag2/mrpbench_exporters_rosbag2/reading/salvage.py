@@ -37,7 +37,10 @@ def _sqlite(file: Path, folder: Path) -> Path:
         new.execute("PRAGMA synchronous = OFF")
         new.execute("BEGIN")
         computed = {name for (name,) in old.execute(COMPUTED)}
-        tables = [name for (name,) in old.execute("SELECT name FROM sqlite_schema WHERE type = 'table'")]
+        tables = [
+            name
+            for (name,) in old.execute("SELECT name FROM sqlite_schema WHERE type = 'table' AND typeof(name) = 'text'")
+        ]
         for name in sorted(set(tables) - computed):
             with suppress(sqlite3.Error, UnicodeDecodeError):  # the latter of words about damaged names
                 rows = old.execute(f"SELECT * FROM {_quoted(name)}")  # noqa: S608 - its own table
