@@ -64,7 +64,7 @@ class Run:
                 warnings.simplefilter("ignore")
                 self.reader.read(self._file)
         except (InputError, InputErrors) as error:
-            self.refused += not again
+            self.refused += self.count > 0 and not again
             self.refusals.add(hash(data))
             if isinstance(error, InputError) and "\n" in str(error):
                 self._keep(data, f"more than one line: {error!r}", "lines")

@@ -8,7 +8,11 @@ import pytest
 from mcap.well_known import MessageEncoding
 from mcap.writer import Writer as BareWriter
 from mcap_ros2.writer import Writer
+from mrpbench_exporters_rosbag2.reading.bounds import check_definition
 from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
+from mrpbench_exporters_rosbag2.reading.stream import Stream
+from rosbags.interfaces import Connection, MessageDefinition, MessageDefinitionFormat
+from rosbags.typesys import get_types_from_msg
 
 from mrpbench_core.files.errors import InputError
 
@@ -115,6 +119,28 @@ def test_a_definition_that_makes_no_sense_is_named(tmp_path):
         writer.finish()
     with pytest.raises(InputError, match=r"/a/amcl_pose: its type geometry_msgs/msg/PoseStamped is not understood"):
         FromRosbag2().read(file)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (definition("acme_msgs/Cell[300000000] cells\n", acme_msgs__Cell="int8 a\n"), "300000000 entries"),
+        ("string[600] a\nstring[600] b\n", "1200 entries"),
+        ("int8 " + 300_000 * "a" + "\n", "300006 characters"),
+    ],
+)
+def test_a_definition_that_would_be_long_code_is_named_and_not_compiled(tmp_path, text, said):
+    connection = Connection(
+        1, "/a", "acme_msgs/msg/Big", MessageDefinition(MessageDefinitionFormat.MSG, text), "", 1, None, None
+    )
+    with Stream(write(tmp_path / "site.mcap", "/{}/amcl_pose", STAMPED)) as stream:
+        assert stream._definition(connection) is None
+        assert said in stream.notes[-1]
+
+
+def test_long_arrays_of_numbers_and_short_ones_of_messages_are_read():
+    text = definition("float64[1000000] grid\nacme_msgs/Cell[8] cells\n", acme_msgs__Cell="int8 a\n")
+    check_definition(text, get_types_from_msg(text, "acme_msgs/msg/Big"))
 
 
 def sqlite(file, kind, data):

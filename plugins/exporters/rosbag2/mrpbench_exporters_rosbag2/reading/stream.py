@@ -14,7 +14,7 @@ from rosbags.typesys.store import Typestore
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_exporters_rosbag2.messages import TYPES
-from mrpbench_exporters_rosbag2.reading.bounds import bound, check_index
+from mrpbench_exporters_rosbag2.reading.bounds import bound, check_definition, check_index
 from mrpbench_exporters_rosbag2.reading.salvage import salvage
 
 STORAGES = (".mcap", ".db3")
@@ -153,6 +153,7 @@ def _store(name: str, kind: MessageDefinitionFormat, text: str) -> Typestore:
         types = {}
         for part in filter(str.strip, text.split(IDL_SEPARATOR)):
             types |= get_types_from_idl(part.partition("\n")[2] if part.startswith("IDL: ") else part)
+    check_definition(text, types)
     store = get_typestore(Stores.EMPTY)
     store.register(types)
     return store
