@@ -10,6 +10,7 @@ from mrpbench_core.engine.bundles.publish import PublishOptions, publish
 from mrpbench_core.engine.bundles.verdict import Check
 from mrpbench_core.engine.bundles.verify import VerifyOptions, verify
 from mrpbench_core.engine.processes.slots import slots_of_this_process
+from mrpbench_core.files.errors import InputError
 
 STUDY = {
     "name": "tiny",
@@ -32,6 +33,8 @@ def read_bundle(file: Path) -> None:
     """Verify a bundle without repeating anything of it."""
 
     def said(check: Check) -> None:
+        if check.name == "archive" and check.outcome == "failed":
+            raise InputError(check.findings[0])
         if check.name == LAST:
             raise DoneError
 

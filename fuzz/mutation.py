@@ -1,10 +1,7 @@
-"""Changes inputs: bytes anywhere, words of text, and the files inside a zip, whose checksums stay right."""
+"""Changes inputs: bytes anywhere, words of text, and arrays."""
 
-import io
 import random
 import re
-import warnings
-import zipfile
 from collections.abc import Callable, Sequence
 
 Mutate = Callable[[bytes, random.Random], bytes]
@@ -91,36 +88,6 @@ def _token(data: bytes, rng: random.Random) -> re.Match[bytes] | None:
     return _TOKEN.search(data, rng.randrange(len(data) + 1)) or _TOKEN.search(data)
 
 
-def in_zip(mutate: Mutate) -> Mutate:
-    """Change the content, the name or the number of the files in a zip; sometimes the bytes of the zip itself."""
-
-    def changed(data: bytes, rng: random.Random) -> bytes:
-        try:
-            with zipfile.ZipFile(io.BytesIO(data)) as source:
-                files = [(entry.filename, source.read(entry)) for entry in source.infolist()]
-        except Exception:  # noqa: BLE001 - an earlier change broke it
-            files = []
-        if not files or rng.random() < 0.1:
-            return mutate_bytes(data, rng)
-        for _ in range(rng.choice((1, 1, 2))):
-            if not files:
-                break
-            place = rng.randrange(len(files))
-            name, content = files[place]
-            match rng.randrange(8):
-                case 0:
-                    del files[place]
-                case 1:
-                    files[place] = name, rng.choice(files)[1]
-                case 2:
-                    files.append((rng.choice(files)[0].replace("0", "1"), content))
-                case _:
-                    files[place] = name, mutate(content, rng)
-        return zipped(files)
-
-    return changed
-
-
 def mutate_npy(data: bytes, rng: random.Random) -> bytes:
     """Change the header of a `.npy` file or, mostly, one of its values; anything else as text."""
     if not data.startswith(b"\x93NUMPY") or len(data) < 16:
@@ -146,13 +113,3 @@ VALUES: Sequence[bytes] = (
     ),
 )
 """Eight bytes: integers of any width, and as floats NaN, infinities, the largest number and -100."""
-
-
-def zipped(files: Sequence[tuple[str, bytes]]) -> bytes:
-    """A zip of files by name; a name may occur twice."""
-    buffer = io.BytesIO()
-    with warnings.catch_warnings(), zipfile.ZipFile(buffer, "w") as target:
-        warnings.simplefilter("ignore")  # of a name that occurs twice
-        for name, content in files:
-            target.writestr(zipfile.ZipInfo(name or "x"), content, zipfile.ZIP_DEFLATED, compresslevel=1)
-    return buffer.getvalue()

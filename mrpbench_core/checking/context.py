@@ -20,6 +20,8 @@ from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.world import Level, World
 
+TICKS = 2**31
+"""Bound of ticks."""
 _ANY_SIGN = frozenset(
     {"x", "y", "yaw", "elevation", "motion_degrees", "mount", "origin", "start", "end", "motion_direction"}
 )
@@ -177,7 +179,12 @@ def _problem(problem: Problem, robots: int, levels: int) -> Iterator[str]:
         yield from _one_each(f"problem.{name}", getattr(problem, name), robots)
     if len(problem.since):
         yield from _one_each("problem.since", problem.since, robots)
+    for name in ("ready", "since"):
+        if (np.abs(np.asarray(getattr(problem, name), float)) >= TICKS).any():
+            yield f"problem.{name} is too far from 0"
     yield from _finite("problem.radius", problem.radius)
+    if (problem.radius < 0).any():
+        yield "problem.radius is negative"
     yield from _indices("problem.profile", problem.profile, len(roadmap.duration))
     vertices = len(roadmap.position)
     yield from _indices("problem.start", problem.start, vertices)
@@ -224,7 +231,7 @@ def _path(name: str, path: Path, edges: int) -> Iterator[str]:
     yield from _indices(f"{name}: an edge", path.edge, edges, least=-1)
     if (path.enter < 0).any() or (path.leave < path.enter).any() or (np.diff(path.enter) < 0).any():
         yield f"{name}: the ticks of a path decrease"
-    yield from _indices(f"{name}: a tick", path.leave, 2**31)
+    yield from _indices(f"{name}: a tick", path.leave, TICKS)
 
 
 def _one_each(name: str, values: Any, count: int) -> Iterator[str]:

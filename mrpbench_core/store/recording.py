@@ -18,6 +18,7 @@ from mrpbench_core.checking.context import check_context, check_rows
 from mrpbench_core.checking.recording import axis_of, check_names
 from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError, one_line
+from mrpbench_core.files.npz import read_array, read_entry
 from mrpbench_core.files.output import create_file
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.routes import RouteHistory
@@ -144,16 +145,11 @@ class Recording:
             )
 
     def _read(self, name: str) -> bytes:
-        entry = self._zip.getinfo(name)
-        if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):  # others decompress without a bound
-            raise ValueError(f"{name} is compressed by the method {entry.compress_type}")
-        with self._zip.open(entry) as stream:
-            return stream.read(entry.file_size)
+        return read_entry(self._zip, self._zip.getinfo(name))
 
     def _load(self, name: str) -> NDArray[Any]:
         with self._naming(f"is damaged: {name!r:.60}"):
-            array: NDArray[Any] = np.lib.format.read_array(BytesIO(self._read(name)), allow_pickle=False)
-            return array
+            return read_array(self._read(name))
 
     def first_context(self) -> RunContext:
         """The context before execution began, as exporters receive it; new plans are in the channels `route_...`."""

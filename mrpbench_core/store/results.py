@@ -3,11 +3,14 @@
 import logging
 import re
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
 import msgspec
 
+from mrpbench_core.files import yaml
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_core.store.paths import RunPaths
@@ -68,6 +71,15 @@ class Results:
         """Lines that are not records, each with advice. Their runs count as not done."""
         self.scan()
         return self._damaged
+
+    @cached_property
+    def invocations(self) -> list[Any]:
+        """The documents of all invocations, oldest first, without unreadable ones, as in a half-copied folder."""
+        found = []
+        for file in sorted((self.folder.path / "invocations").glob("*.yaml")):
+            with suppress(InputError):
+                found.append(yaml.load(file).data if file.is_file() else None)
+        return found
 
     @property
     def _index(self) -> RecordIndex:

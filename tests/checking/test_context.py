@@ -50,6 +50,8 @@ LIFT = Lift(name="l", x=0, y=0, yaw=0, width=1, depth=1, levels=(0,), initial_le
         ("scenario start", [[np.inf, 0, 0]] * 2, "scenario.start is not finite"),
         ("problem start", [[0], [1]], "problem.start has the shape (2, 1) instead of 2 entries"),
         ("problem start", [0, 3], "problem.start does not exist"),
+        ("problem ready", [0, -(2**63)], "problem.ready is too far from 0"),
+        ("problem radius", [0.2, -0.2], "problem.radius is negative"),
         ("problem profile", [0, 1], "problem.profile does not exist"),
         ("problem goals", (((5,),), ()), "problem.goals does not exist"),
         ("problem roadmap edges", [[0, 5]], "roadmap.edges does not exist"),

@@ -2,7 +2,7 @@
 
 import logging
 from collections.abc import Iterable, Mapping
-from functools import partial
+from functools import cache, partial
 from typing import Any, get_args
 
 from mrpbench_core.api.metric import Better, Column, ColumnStage, Drawn, Metric, Question
@@ -148,10 +148,17 @@ def _installed(metrics: Iterable[str]) -> dict[str, Any]:
     with slots_of_this_process():  # one worker for all metrics
         for metric in filter(there.__contains__, metrics):
             try:
-                found |= in_worker(f"the columns of {metric} are not described", declarations_of, metric)
+                found |= _described(metric)
             except InputError as error:
                 _LOG.warning("%s", error)
     return found
+
+
+@cache
+def _described(metric: str) -> dict[str, Any]:
+    """The declarations of an installed metric, which a command needs for several tables."""
+    declared: dict[str, Any] = in_worker(f"the columns of {metric} are not described", declarations_of, metric)
+    return declared
 
 
 def declarations_of(metric: str) -> dict[str, Any]:

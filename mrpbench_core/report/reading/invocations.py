@@ -6,25 +6,19 @@ The documents may come from others: parts of another type than `mrpbench run` wr
 from collections.abc import Iterable
 from typing import Any
 
-from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.yaml import load
 from mrpbench_core.store.results import Results
 
 _TYPES = {"machine": dict, "versions": dict, "columns": dict, "overrides": list}
 
 
 def read_invocations(folders: Iterable[Results]) -> list[dict[str, Any]]:
-    """Return the documents of all invocations, oldest first; skip unreadable ones, as in a half-copied folder."""
-    found = []
-    for results in folders:
-        for file in sorted((results.folder.path / "invocations").glob("*.yaml")):
-            try:
-                data = load(file).data if file.is_file() else None
-            except InputError:
-                continue
-            if isinstance(data, dict):
-                found.append({key: value for key, value in data.items() if isinstance(value, _TYPES.get(key, object))})
-    return found
+    """Return the documents of all invocations, oldest first."""
+    return [
+        {key: value for key, value in data.items() if isinstance(value, _TYPES.get(key, object))}
+        for results in folders
+        for data in results.invocations
+        if isinstance(data, dict)
+    ]
 
 
 def made_with(invocations: Iterable[dict[str, Any]]) -> dict[str, tuple[str, ...]]:

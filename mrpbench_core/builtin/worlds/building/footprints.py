@@ -1,5 +1,6 @@
 """Footprints of models by name: our table and the user's."""
 
+from functools import cache
 from pathlib import Path
 
 import attrs
@@ -31,13 +32,16 @@ class Footprints:
     """Finds footprints by the name of a model, with or without its owner (`OpenRobotics/Desk`, `Desk`)."""
 
     def __init__(self, own: Path | None = None) -> None:
-        self._table = _read(SHIPPED, estimated=True)
-        if own is not None:
-            self._table |= _read(own, estimated=False)
+        self._table = _shipped() if own is None else _shipped() | _read(own, estimated=False)
 
     def get(self, model: str) -> Footprint | None:
         """Return the footprint, or None if no table has the model."""
         return self._table.get(model, self._table.get(model.rpartition("/")[2]))
+
+
+@cache
+def _shipped() -> dict[str, Footprint]:
+    return _read(SHIPPED, estimated=True)
 
 
 def _read(file: Path, *, estimated: bool) -> dict[str, Footprint]:

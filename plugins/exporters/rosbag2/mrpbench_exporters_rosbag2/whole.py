@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from mrpbench_core.checking.context import check_context
 from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import one_line
+from mrpbench_core.files.npz import read_array, read_entry
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_exporters_rosbag2.messages import Topic, message, serialize
 
@@ -80,7 +81,7 @@ def unpacked(data: NDArray[np.uint8]) -> dict[str, NDArray[Any]]:
         with zipfile.ZipFile(BytesIO(data.tobytes())) as source:
             if sum(entry.file_size for entry in source.infolist()) > LARGEST:
                 raise ValueError(f"damaged: it would take more than {LARGEST // 2**20} MiB")
-        with np.load(BytesIO(data.tobytes()), allow_pickle=False) as file:
-            return {name: file[name] for name in file}
+            entries = source.infolist()
+            return {entry.filename.removesuffix(".npy"): read_array(read_entry(source, entry)) for entry in entries}
     except Exception as error:  # zip, zlib and NumPy have no common class of errors
         raise ValueError(f"damaged: {one_line(error)}") from error

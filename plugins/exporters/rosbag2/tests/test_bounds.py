@@ -8,7 +8,7 @@ import lz4.frame
 import pytest
 from mrpbench_exporters_rosbag2.reading import bounds
 from mrpbench_exporters_rosbag2.reading.bounds import LARGEST, inflate
-from mrpbench_exporters_rosbag2.reading.salvage import END, MAGIC
+from mrpbench_exporters_rosbag2.reading.salvage import END, MAGIC, salvage
 from mrpbench_exporters_rosbag2.reading.stream import Stream
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, ReaderError, StoragePlugin, Writer, storage_mcap
 from rosbags.typesys import Stores, get_typestore
@@ -81,6 +81,50 @@ def test_a_table_whose_messages_are_computed_is_refused(tmp_path):
     database.close()
     with pytest.raises(InputError, match="table messages computes its values"):
         Stream(file)
+
+
+ENDLESS = "(WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT i FROM n)"
+
+
+def test_the_copy_of_a_damaged_database_computes_nothing_that_its_names_and_constraints_say(tmp_path):
+    file = tmp_path / "a.db3"
+    with sqlite3.connect(file) as database:
+        database.execute(f'CREATE TABLE "messages"" JOIN {ENDLESS} --" (id INTEGER)')
+        database.execute("CREATE TABLE topics(id INTEGER PRIMARY KEY AUTOINCREMENT, CHECK (length(zeroblob(2e9))))")
+        database.execute("PRAGMA ignore_check_constraints = ON")
+        database.execute("INSERT INTO topics VALUES (7)")
+    database.close()
+    (tmp_path / "copy").mkdir()
+    with sqlite3.connect(salvage(file, tmp_path / "copy")) as copy:
+        assert copy.execute("SELECT * FROM topics").fetchall() == [(7,)]
+        assert "CHECK" not in "".join(text for (text,) in copy.execute("SELECT sql FROM sqlite_schema"))
+    copy.close()
+
+
+def test_a_database_whose_damage_is_no_text_is_refused_in_one_line(tmp_path):
+    folder = written(tmp_path / "bag", StoragePlugin.SQLITE3)
+    (file,) = folder.glob("*.db3")
+    content = file.read_bytes()
+    file.write_bytes(
+        content.replace(b"CREATE TABLE schema(\n      schema", b"CREATE TABLE schema(\n     [\xd5\xd5\xd5\xd5\xd5\xd5")
+    )
+    assert file.read_bytes() != content
+    with pytest.raises(InputError, match="malformed database schema"):
+        Stream(file)
+
+
+def test_definitions_and_quality_of_service_are_not_parsed_again(tmp_path):
+    folder = written(tmp_path / "bag", StoragePlugin.SQLITE3)
+    (file,) = folder.glob("*.db3")
+    with sqlite3.connect(file) as database:
+        database.execute("UPDATE topics SET offered_qos_profiles = '{'")
+    database.close()
+    stores = []
+    for _ in range(2):
+        with Stream(file) as stream:
+            assert [message.data for _, _, message in stream.messages(["/a"])] == ["x"]
+            stores += stream._types.values()
+    assert stores[0] is stores[1]
 
 
 def written(folder, storage, mode=None):

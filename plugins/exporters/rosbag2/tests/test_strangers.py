@@ -8,7 +8,11 @@ import pytest
 from mcap.well_known import MessageEncoding
 from mcap.writer import Writer as BareWriter
 from mcap_ros2.writer import Writer
+from mrpbench_exporters_rosbag2.reading.bounds import check_definition
 from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
+from mrpbench_exporters_rosbag2.reading.stream import Stream
+from rosbags.interfaces import Connection, MessageDefinition, MessageDefinitionFormat
+from rosbags.typesys import get_types_from_msg
 
 from mrpbench_core.files.errors import InputError
 
@@ -117,6 +121,28 @@ def test_a_definition_that_makes_no_sense_is_named(tmp_path):
         FromRosbag2().read(file)
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (definition("acme_msgs/Cell[300000000] cells\n", acme_msgs__Cell="int8 a\n"), "300000000 entries"),
+        ("string[600] a\nstring[600] b\n", "1200 entries"),
+        ("int8 " + 300_000 * "a" + "\n", "300006 characters"),
+    ],
+)
+def test_a_definition_that_would_be_long_code_is_named_and_not_compiled(tmp_path, text, said):
+    connection = Connection(
+        1, "/a", "acme_msgs/msg/Big", MessageDefinition(MessageDefinitionFormat.MSG, text), "", 1, None, None
+    )
+    with Stream(write(tmp_path / "site.mcap", "/{}/amcl_pose", STAMPED)) as stream:
+        assert stream._definition(connection) is None
+        assert said in stream.notes[-1]
+
+
+def test_long_arrays_of_numbers_and_short_ones_of_messages_are_read():
+    text = definition("float64[1000000] grid\nacme_msgs/Cell[8] cells\n", acme_msgs__Cell="int8 a\n")
+    check_definition(text, get_types_from_msg(text, "acme_msgs/msg/Big"))
+
+
 def sqlite(file, kind, data):
     """A database as ros2 bag of Foxy to Humble wrote it: without definitions."""
     with sqlite3.connect(file) as base:
@@ -152,3 +178,27 @@ def test_a_database_of_an_unknown_type_is_refused(tmp_path):
     file = sqlite(tmp_path / "own.db3", "acme_msgs/msg/Place", [(1, b"\x00\x01\x00\x00")])
     with pytest.raises(InputError, match=r"holds no pose of any robot.*acme_msgs/Place"):
         FromRosbag2().read(file)
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        ("UPDATE topics SET name = x'2f61'", "a topic has no name"),
+        ("UPDATE messages SET timestamp = x'' WHERE id > 3", "a message has no time"),
+        ("UPDATE messages SET timestamp = 1e300 WHERE id > 3", "a message has no time"),
+    ],
+)
+def test_a_database_with_values_of_other_kinds_is_damaged_there(tmp_path, change, said):
+    data = [(int((5 + t) * 1e9), stamped(5 + t, 2 * t, 1.0)) for t in range(8)]
+    file = sqlite(tmp_path / "old.db3", "geometry_msgs/msg/PoseStamped", data)
+    with sqlite3.connect(file) as base:
+        base.execute(change)
+    base.close()
+    if "topic" in said:
+        with pytest.raises(InputError, match=said):
+            FromRosbag2().read(file)
+    else:
+        observed = FromRosbag2().read(file)
+        assert len(observed.tracks[0].time) == 4
+        assert not observed.complete
+        assert any(said in note for note in observed.notes)

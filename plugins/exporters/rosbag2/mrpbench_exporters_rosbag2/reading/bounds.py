@@ -3,6 +3,7 @@
 rosbags decompresses a chunk of mcap (https://mcap.dev/spec) or a message whole, and compares sizes afterwards.
 """
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import IO, Any
 
@@ -10,10 +11,13 @@ import rosbags.rosbag2.reader
 import rosbags.rosbag2.storage_mcap
 import rosbags.rosbag2.storage_sqlite3
 from lz4.frame import LZ4FrameDecompressor  # type: ignore[import-untyped]
+from rosbags.interfaces import Nodetype
 from rosbags.rosbag2 import Reader, ReaderError
 
 LARGEST = 2**28
 """Bytes of one decompressed chunk or message."""
+LONGEST, ENTRIES = 2**18, 1000
+"""Characters of the definition of a type, and entries of its arrays of fixed size that are texts or messages."""
 RATIO, FREE = 200, 2**30
 """A bag may grow to `FREE` bytes and `RATIO` times its own."""
 COMPUTED = """
@@ -29,9 +33,10 @@ _SQLITE: Any = rosbags.rosbag2.storage_sqlite3
 
 
 def bound() -> None:
-    """Let rosbags decompress and read within bounds in this process."""
+    """Let rosbags decompress and read within bounds in this process, and only what is used here."""
     _MCAP.DECOMPRESSORS.update({"lz4": _lz4, "zstd": inflate})
     _READER.zstd = _Zstd
+    _MCAP.parse_qos = _SQLITE.parse_qos = _no_qos
     if _check_database not in _SQLITE.apsw.connection_hooks:
         _SQLITE.apsw.connection_hooks.append(_check_database)
 
@@ -46,6 +51,21 @@ def check_index(reader: Reader) -> None:
         size = sum(chunk.uncompressed_size for chunk in getattr(storage, "chunks", ()))
         if size > allowed(Path(storage.path)):
             raise ReaderError(f"its chunks would take {size / 2**30:.1f} GiB of memory")
+
+
+def check_definition(text: str, types: Mapping[str, Any]) -> None:
+    """Check the definition of a message type: rosbags writes code for each entry of an array of texts or messages.
+
+    Raises:
+        ReaderError: it is too long, or its arrays are.
+    """
+    if len(text) > LONGEST:
+        raise ReaderError(f"its definition has {len(text)} characters, and {LONGEST} are read")
+    fields = [kind for _, own in types.values() for _, kind in own]
+    arrays = [of for kind, of in fields if kind == Nodetype.ARRAY]
+    written = sum(length for (kind, of), length in arrays if kind == Nodetype.NAME or of[0] == "string")
+    if written > ENTRIES:
+        raise ReaderError(f"its arrays have {written} entries that are texts or messages, and {ENTRIES} are read")
 
 
 def allowed(file: Path) -> int:
@@ -70,6 +90,11 @@ def inflate(data: bytes, largest: int = LARGEST) -> bytes:
             raise ReaderError("a compressed part ends early")
         data = frame.unused_data
     return bytes(found)
+
+
+def _no_qos(_text: str) -> list[Any]:
+    """Leave out the quality of service of a topic, which nothing here uses: rosbags takes 10 ms for its YAML."""
+    return []
 
 
 def _lz4(data: bytes, largest: int) -> bytes:

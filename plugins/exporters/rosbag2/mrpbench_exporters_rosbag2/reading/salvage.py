@@ -23,25 +23,37 @@ def salvage(file: Path, folder: Path) -> Path:
 
 
 def _sqlite(file: Path, folder: Path) -> Path:
-    """Copy all tables, row by row until a row cannot be read."""
+    """Copy all tables, row by row until a row cannot be read.
+
+    Of a table's definition only the names are taken: its constraints would be computed in the copy.
+    """
     copy = folder / file.name
     with (
         closing(sqlite3.connect(f"{file.resolve().as_uri()}?immutable=1", uri=True)) as old,
-        closing(sqlite3.connect(copy)) as new,
-        suppress(sqlite3.DatabaseError),
+        closing(sqlite3.connect(copy, isolation_level=None)) as new,
     ):
         old.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST)
+        new.execute("PRAGMA journal_mode = OFF")  # an unfinished copy is of no use
+        new.execute("PRAGMA synchronous = OFF")
+        new.execute("BEGIN")
         computed = {name for (name,) in old.execute(COMPUTED)}
-        tables = old.execute("SELECT name, sql FROM sqlite_schema WHERE type = 'table'").fetchall()
-        for name, text in sorted(tables, key=lambda table: table[0] == "messages"):  # the damage is most likely there
-            if name in computed:
-                continue
-            new.execute(text)
-            with suppress(sqlite3.DatabaseError):
-                for row in old.execute(f'SELECT * FROM "{name}"'):  # noqa: S608 - its own table
-                    new.execute(f'INSERT INTO "{name}" VALUES ({", ".join("?" * len(row))})', row)  # noqa: S608
-            new.commit()
+        tables = [
+            name
+            for (name,) in old.execute("SELECT name FROM sqlite_schema WHERE type = 'table' AND typeof(name) = 'text'")
+        ]
+        for name in sorted(set(tables) - computed):
+            with suppress(sqlite3.Error, UnicodeDecodeError):  # the latter of words about damaged names
+                rows = old.execute(f"SELECT * FROM {_quoted(name)}")  # noqa: S608 - its own table
+                columns = [_quoted(column) for column, *_ in rows.description]
+                new.execute(f"CREATE TABLE {_quoted(name)} ({', '.join(columns)})")
+                places = ", ".join("?" * len(columns))
+                new.executemany(f"INSERT INTO {_quoted(name)} VALUES ({places})", rows)  # noqa: S608
+        new.execute("COMMIT")
     return copy
+
+
+def _quoted(name: str) -> str:
+    return '"' + name.replace('"', '""') + '"'
 
 
 def _mcap(file: Path, folder: Path) -> Path:

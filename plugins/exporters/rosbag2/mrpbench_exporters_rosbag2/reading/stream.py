@@ -1,23 +1,26 @@
 """Reads the messages of a bag in the order of recording, up to the first damage."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import ExitStack, suppress
+from functools import lru_cache
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
 from rosbags.interfaces import Connection, MessageDefinitionFormat
-from rosbags.rosbag2 import Reader
+from rosbags.rosbag2 import Reader, ReaderError
 from rosbags.typesys import Stores, get_types_from_idl, get_types_from_msg, get_typestore
 from rosbags.typesys.store import Typestore
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_exporters_rosbag2.messages import TYPES
-from mrpbench_exporters_rosbag2.reading.bounds import bound, check_index
+from mrpbench_exporters_rosbag2.reading.bounds import bound, check_definition, check_index
 from mrpbench_exporters_rosbag2.reading.salvage import salvage
 
 STORAGES = (".mcap", ".db3")
 IDL_SEPARATOR = "=" * 80 + "\n"
+STAMPS = 2**63
+"""Bound of log times, nanoseconds."""
 
 
 class Stream:
@@ -61,6 +64,8 @@ class Stream:
                 for connection, stamp, data in reader.messages(wanted) if wanted else ():
                     store = self._definition(connection)
                     assert store is not None
+                    if not _is_time(stamp):
+                        raise ReaderError("a message has no time")
                     message = store.deserialize_cdr(data, connection.msgtype)
                     count += 1
                     yield connection.topic, stamp, message
@@ -83,24 +88,16 @@ class Stream:
 
     def _find(self, connection: Connection) -> Typestore | None:
         name, definition = connection.msgtype, connection.msgdef
-        try:
-            if definition.format == MessageDefinitionFormat.MSG:
-                types = get_types_from_msg(definition.data, name)
-            elif definition.format == MessageDefinitionFormat.IDL:
-                types = {}
-                for part in filter(str.strip, definition.data.split(IDL_SEPARATOR)):
-                    types |= get_types_from_idl(part.partition("\n")[2] if part.startswith("IDL: ") else part)
-            elif name in TYPES.fielddefs:
-                return TYPES
-            else:
-                self.notes.append(f"{connection.topic}: the bag does not define its type {name}, so it was not read")
+        if definition.format in (MessageDefinitionFormat.MSG, MessageDefinitionFormat.IDL):
+            try:
+                return _store(name, definition.format, definition.data)
+            except Exception as error:  # noqa: BLE001 - a parser's error about text from the bag
+                self.notes.append(f"{connection.topic}: its type {name} is not understood ({_words(error)})")
                 return None
-            store = get_typestore(Stores.EMPTY)
-            store.register(types)
-        except Exception as error:  # noqa: BLE001 - a parser's error about text from the bag
-            self.notes.append(f"{connection.topic}: its type {name} is not understood ({_words(error)})")
-            return None
-        return store
+        if name in TYPES.fielddefs:
+            return TYPES
+        self.notes.append(f"{connection.topic}: the bag does not define its type {name}, so it was not read")
+        return None
 
     def _open(self) -> list[Reader]:
         if not self.path.exists():
@@ -108,25 +105,27 @@ class Stream:
         try:
             return [self._reader(self.path)]
         except InputError as error:
+            reason = error.message
             files = [self.path] if self.path.is_file() else sorted(self.path.iterdir())
             files = [file for file in files if file.suffix in STORAGES]
             if not files:
                 if (self.path / "metadata.yaml").is_file():
                     raise
                 raise InputError("is no rosbag2", file=self.path, hint="give the folder with metadata.yaml") from error
-            reason = error.message
         readers = []
         for file in files:
-            try:
-                readers.append(self._reader(file))
-                self.notes.append(f"read without metadata.yaml ({reason})")
-            except InputError as error:
-                reason = error.message
-                with suppress(InputError, OSError):
-                    copy = salvage(file, Path(self._stack.enter_context(TemporaryDirectory())))
-                    readers.append(self._reader(copy))
-                    self.complete = False
-                    self.notes.append(f"{file.name} is damaged ({reason}): what is before the damage was read")
+            if file != self.path:
+                try:
+                    readers.append(self._reader(file))
+                    self.notes.append(f"read without metadata.yaml ({reason})")
+                    continue
+                except InputError as error:
+                    reason = error.message
+            with suppress(Exception):  # as in `messages`
+                copy = salvage(file, Path(self._stack.enter_context(TemporaryDirectory())))
+                readers.append(self._reader(copy))
+                self.complete = False
+                self.notes.append(f"{file.name} is damaged ({reason}): what is before the damage was read")
         if not readers:
             raise InputError(f"nothing of it can be read: {reason}", file=self.path)
         return readers
@@ -137,9 +136,31 @@ class Stream:
             reader = Reader(path)
             self._stack.enter_context(reader)
             check_index(reader)
+            texts: Iterable[Any] = ((c.topic, c.msgtype, c.msgdef.data) for c in reader.connections)
+            if not all(isinstance(text, str) for named in texts for text in named):  # SQLite keeps what it is given
+                raise ReaderError("a topic has no name or no type")
         except Exception as error:  # as in `messages`
             raise InputError(_words(error), file=path) from error
         return reader
+
+
+@lru_cache(maxsize=64)
+def _store(name: str, kind: MessageDefinitionFormat, text: str) -> Typestore:
+    """The types that a definition of the type `name` names; bags of the same robots have the same ones."""
+    if kind == MessageDefinitionFormat.MSG:
+        types = get_types_from_msg(text, name)
+    else:
+        types = {}
+        for part in filter(str.strip, text.split(IDL_SEPARATOR)):
+            types |= get_types_from_idl(part.partition("\n")[2] if part.startswith("IDL: ") else part)
+    check_definition(text, types)
+    store = get_typestore(Stores.EMPTY)
+    store.register(types)
+    return store
+
+
+def _is_time(stamp: Any) -> bool:
+    return isinstance(stamp, int) and -STAMPS <= stamp < STAMPS
 
 
 def _words(error: Exception) -> str:
