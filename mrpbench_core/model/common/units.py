@@ -33,7 +33,7 @@ UNITS: dict[str, dict[str, Fraction]] = {
 }
 """For each SI unit, the units that are accepted for it and their size."""
 LARGEST = {
-    "s": 1e7,
+    "s": 1e10,
     "m": 1e5,
     "m/s": 1e3,
     "m/s^2": 1e4,

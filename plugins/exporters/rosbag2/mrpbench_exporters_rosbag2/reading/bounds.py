@@ -36,7 +36,7 @@ def bound() -> None:
     """Let rosbags decompress and read within bounds in this process, and only what is used here."""
     _MCAP.DECOMPRESSORS.update({"lz4": _lz4, "zstd": inflate})
     _READER.zstd = _Zstd
-    _MCAP.parse_qos = _SQLITE.parse_qos = _no_qos
+    _READER.parse_qos = _MCAP.parse_qos = _SQLITE.parse_qos = _no_qos  # it compares what these read
     if _check_database not in _SQLITE.apsw.connection_hooks:
         _SQLITE.apsw.connection_hooks.append(_check_database)
 
