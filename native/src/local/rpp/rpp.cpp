@@ -34,9 +34,10 @@ struct RppOptions {
     using R = RppOptions;
     return {
         {"max_linear_vel", &R::max_linear_vel, above(0, "m/s"), "cruising speed, within the robot's limit"},
-        {"min_linear_vel", &R::min_linear_vel, any("m/s"), "lowest speed of the dynamic window"},
+        {"min_linear_vel", &R::min_linear_vel, within(-1000, 0, "m/s"), "lowest speed of the dynamic window"},
         {"max_angular_vel", &R::max_angular_vel, above(0, "rad/s"), "highest turn rate, within the robot's limit"},
-        {"min_angular_vel", &R::min_angular_vel, any("rad/s"), "lowest turn rate, within the robot's limit"},
+        {"min_angular_vel", &R::min_angular_vel, within(-1000, 0, "rad/s"),
+         "lowest turn rate, within the robot's limit"},
         {"max_linear_accel", &R::max_linear_accel, above(0), "acceleration of the dynamic window, m/s^2"},
         {"max_linear_decel", &R::max_linear_decel, any(""), "deceleration of the dynamic window, negative, m/s^2"},
         {"max_angular_accel", &R::max_angular_accel, above(0),

@@ -154,6 +154,13 @@ def test_a_nav2_file_is_read(tmp_path):
         Rpp(FollowPath={"plugin": "dwb_core::DWBLocalPlanner"})
 
 
+@pytest.mark.parametrize("name", ["min_linear_vel", "min_angular_vel"])
+def test_a_dynamic_window_without_zero_is_refused(name):
+    """Turning for good, the check for collisions along the arc took minutes."""
+    with pytest.raises(ValueError, match=f"'{name}' must be <= 0"):
+        Rpp(**{name: 0.5})
+
+
 def test_options_that_exclude_each_other_are_refused():
     with pytest.raises(InputError, match="allow_reversing excludes use_rotate_to_heading"):
         Rpp(allow_reversing=True).start_fleet((SPRINTER,), NOWHERE, PERIOD)
