@@ -110,7 +110,7 @@ def test_further_levels_are_drawn_next_to_the_first(invoke, tmp_path, shared_dat
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["office", "--convert", "a.yaml", "--roadmap", "grid", "--cell-size", "0.001"], "choose a larger cell_size"),
+        (["office", "--convert", "a.yaml", "--roadmap", "grid", "--cell-size", "0.01"], "choose a larger cell_size"),
         (["office", "--convert", "office.png"], "cannot convert to .png (use .yaml or .map)"),
         (["office", "--roadmap", "graph", "--convert", "a.map"], "this roadmap has no raster to write"),
         (["office", "--convert", "no/such/a.map"], "no/such/a.map: cannot be written"),
@@ -121,7 +121,7 @@ def test_further_levels_are_drawn_next_to_the_first(invoke, tmp_path, shared_dat
         (["office", "--level", "L2"], "office has no option 'level'"),
         (["office", "--roadmap", "grit"], "did you mean 'grid'"),
         (["office", "--roadmap", "graph", "--cell-size", "1"], "graph has no option 'cell_size'"),
-        (["office", "--cell-size", "-1"], "'cell_size' must be > 0"),
+        (["office", "--cell-size", "-1"], "'cell_size' must be >= 0.01"),
         (["office", "--robot", "r2d2"], "no robot is named 'r2d2'"),
         (["office", "--render", "no/such/folder.png"], "no/such/folder.png: cannot be written"),
     ],
