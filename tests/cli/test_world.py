@@ -110,7 +110,7 @@ def test_further_levels_are_drawn_next_to_the_first(invoke, tmp_path, shared_dat
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["office", "--convert", "a.yaml", "--roadmap", "grid", "--cell-size", "0.01"], "choose a larger cell_size"),
+        (["airport", "--convert", "a.yaml", "--roadmap", "grid", "--cell-size", "0.01"], "choose a larger cell_size"),
         (["office", "--convert", "office.png"], "cannot convert to .png (use .yaml or .map)"),
         (["office", "--roadmap", "graph", "--convert", "a.map"], "this roadmap has no raster to write"),
         (["office", "--convert", "no/such/a.map"], "no/such/a.map: cannot be written"),
