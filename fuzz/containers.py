@@ -7,6 +7,7 @@ import zlib
 from collections.abc import Sequence
 from contextlib import closing
 
+from mrpbench_exporters_rosbag2.reading.salvage import quoted
 from mutation import Mutate, mutate_bytes, mutate_text
 
 _LOCAL, _CENTRAL, _END = struct.Struct("<4s5H3I2H"), struct.Struct("<4s6H3I5H2I"), struct.Struct("<4s4H2IH")
@@ -186,8 +187,8 @@ def mutate_database(data: bytes, rng: random.Random) -> bytes:
 def _change(database: sqlite3.Connection, rng: random.Random) -> None:
     """Change one row of a table."""
     names = [name for (name,) in database.execute("SELECT name FROM sqlite_schema WHERE typeof(name) = 'text'")]
-    table = _quoted(rng.choice([*names, "sqlite_schema"]))
-    columns = [_quoted(name) for _, name, *_ in database.execute(f"PRAGMA table_info({table})")]
+    table = quoted(rng.choice([*names, "sqlite_schema"]))
+    columns = [quoted(name) for _, name, *_ in database.execute(f"PRAGMA table_info({table})")]
     one, other = rng.choice(columns), rng.choice(columns)
     value, row = rng.choice(database.execute(f"SELECT {one}, rowid FROM {table}").fetchall())  # noqa: S608
     match rng.randrange(8):
@@ -209,7 +210,3 @@ def _other(value: object, rng: random.Random) -> object:
     if isinstance(value, bytes):
         return mutate_bytes(value, rng)
     return rng.choice((0, 1, -1, 2, 2**31, 2**63 - 1, -(2**63), 1.5, None))
-
-
-def _quoted(name: str) -> str:
-    return '"' + name.replace('"', '""') + '"'

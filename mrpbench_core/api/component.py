@@ -33,20 +33,22 @@ def option(
     A field of type `pathlib.Path` names a file, relative to the folder of the configuration; its content identifies it.
     A field whose type is a component class (or a tuple of one) is chosen by plugin name, recursively.
     """
-    check: Callable[..., Any] = Magnitude(unit, infinite)
-    return attrs.field(
-        default=default,
-        validator=check if validator is None else attrs.validators.and_(check, validator),
-        metadata={"help": help, "unit": unit},
-    )
+    metadata = {"help": help, "unit": unit}
+    return attrs.field(default=default, validator=bounded(unit, validator, infinite=infinite), metadata=metadata)
+
+
+def bounded(
+    unit: str | None, validator: Callable[..., Any] | None = None, *, infinite: bool = False
+) -> Callable[..., Any]:
+    """Return the validator of an option: no number is so large that computations with it fail, and `validator`."""
+    check: Callable[..., Any] = _Magnitude(unit, infinite)
+    return check if validator is None else attrs.validators.and_(check, validator)
 
 
 @attrs.frozen
-class Magnitude:
-    """The validator of every option: no number is so large that computations with it fail."""
-
+class _Magnitude:
     unit: str | None
-    infinite: bool = False
+    infinite: bool
 
     def __call__(self, _: Any, field: "attrs.Attribute[Any]", value: Any) -> None:
         if isinstance(value, tuple):

@@ -5,7 +5,7 @@ from typing import Any, Literal, get_args, get_origin
 
 import attrs
 
-from mrpbench_core.api.component import Magnitude
+from mrpbench_core.api.component import bounded
 from mrpbench_core.api.described import DescribedOption, kind_of, validator_of
 from mrpbench_core.files.nav2 import Nav2Block
 
@@ -18,10 +18,9 @@ def parameter(default: Any, *, help: str, unit: str | None = None, validator: Ca
     shown = (
         "" if default is None else f" (default {default:g})" if isinstance(default, float) else f" (default {default})"
     )
-    check: Callable[..., Any] = Magnitude(unit)
     return attrs.field(
         default=None,
-        validator=attrs.validators.optional(check if validator is None else attrs.validators.and_(check, validator)),
+        validator=attrs.validators.optional(bounded(unit, validator)),
         metadata={"help": help + shown, "unit": unit, "nav2": default},
     )
 

@@ -4,13 +4,13 @@
 """
 
 import argparse
-import os
 from pathlib import Path
 from typing import Any
 
 from mrpbench_core.cli.input.arguments import read_options
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.links import followed
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.runs.status import RunStatus
 
@@ -80,7 +80,7 @@ def run(arguments: argparse.Namespace) -> int:
         return analyze_output(Path(arguments.bag), arguments.scenario, as_json=arguments.json)
     from mrpbench_core.engine.processes.call import in_worker
 
-    out = arguments.out or str(Path("results", Path(os.path.realpath(arguments.bag)).stem))
+    out = arguments.out or str(Path("results", followed(arguments.bag).stem))
     record = in_worker(f"{arguments.bag} cannot be analyzed", analyzed, {**vars(arguments), "out": out})
     print_json(record) if arguments.json else _print(record, out)
     return 0

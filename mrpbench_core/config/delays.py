@@ -5,9 +5,9 @@ from typing import Literal
 import attrs
 from attrs import validators
 
-from mrpbench_core.api import option
+from mrpbench_core.api import between, option
 
-_SHARE = validators.and_(validators.ge(0), validators.le(1))
+_SHARE = between(0, 1)
 
 
 def _not_below_min(delays: "Delays", _: "attrs.Attribute[int]", value: int) -> None:
@@ -52,7 +52,7 @@ class Delays:
         0.0,
         help="standard deviation of the logarithm of a robot's speed on each segment of its path, relative to its "
         "usual speed; the mean is 1. A simulator with physics keeps to the robot's greatest speed",
-        validator=validators.and_(validators.ge(0), validators.le(3)),
+        validator=between(0, 3),
     )
     draws: int = option(
         1,

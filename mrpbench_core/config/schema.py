@@ -75,9 +75,8 @@ class _Schema:
 
     def _option(self, field: Any) -> dict[str, Any]:
         written = field.metadata.get("written_default", attrs.NOTHING)
-        found = self.value(field.type, field.metadata.get("unit"), written if isinstance(written, str) else None)
-        if written is not attrs.NOTHING and {"enum": [None, "none"]} in found.get("anyOf", ()):
-            found["anyOf"][-1] = {"enum": ["none"]}  # an empty value of a whole stage is refused as a slip
+        plugin, may_be_empty = written if isinstance(written, str) else None, written is attrs.NOTHING
+        found = self.value(field.type, field.metadata.get("unit"), plugin, may_be_empty=may_be_empty)
         if field.metadata.get("help"):
             found = {**found, "description": field.metadata["help"]}
         default = written if written is not attrs.NOTHING else field.default
@@ -85,11 +84,21 @@ class _Schema:
             found = {**found, "default": json_scalar(default)}
         return found
 
-    def value(self, kind: Any, unit: str | None = None, default: str | None = None) -> dict[str, Any]:
-        """Return the schema of a value of type `kind`; `default` is the plugin of a block that names none."""
+    def value(
+        self, kind: Any, unit: str | None = None, default: str | None = None, *, may_be_empty: bool = True
+    ) -> dict[str, Any]:
+        """Return the schema of a value of type `kind`.
+
+        Args:
+            kind: its type.
+            unit: of a number.
+            default: the plugin of a block that names none.
+            may_be_empty: an empty value says `none`; for a whole stage it is refused as a slip.
+        """
         origin, arguments = typing.get_origin(kind), typing.get_args(kind)
         if origin in (typing.Union, UnionType):
-            nothing = [{"enum": [None, "none"]}] if NoneType in arguments else []
+            empty = [None] if may_be_empty else []
+            nothing = [{"enum": [*empty, "none"]}] if NoneType in arguments else []
             members = [self.value(member, unit, default) for member in arguments if member is not NoneType]
             return {"anyOf": [*members, *nothing]}
         if origin is Literal:

@@ -29,6 +29,7 @@ from mrpbench_core.api import (
 from mrpbench_core.config.delays import Delays
 from mrpbench_core.config.faults import Faults
 from mrpbench_core.files.robot import robot_file, robot_reads
+from mrpbench_core.model.common.fleet import LEAST_RATE, MOST_BEAMS
 
 ROBOT = "turtlebot3_burger"
 _SHARE = between(0, 1)
@@ -47,13 +48,13 @@ def block(plugin: Any = attrs.NOTHING, *, help: str, validator: Any = None) -> A
 class LidarOptions:
     """Settings that replace those of the robot's lidar; None = as in the robot model."""
 
-    beams: int | None = option(None, help="beams per turn", validator=validators.optional(between(1, 100_000)))
+    beams: int | None = option(None, help="beams per turn", validator=validators.optional(between(1, MOST_BEAMS)))
     range: float | None = option(None, help="reach", unit="m", validator=validators.optional(validators.gt(0)))
     min_range: float | None = option(
         None, help="nearest distance seen", unit="m", validator=validators.optional(validators.ge(0))
     )
     rate: float | None = option(
-        None, help="scans per simulated second", unit="Hz", validator=validators.optional(between(0.01, 1e4))
+        None, help="scans per simulated second", unit="Hz", validator=validators.optional(between(LEAST_RATE, 1e4))
     )
     mount: tuple[float, float, float] | None = option(None, help="x, y, z in the robot's base frame, metres")
 

@@ -23,6 +23,7 @@ from mrpbench_core.config.shared import Shared
 from mrpbench_core.config.validation import fault_of, stand_in_of, words_of
 from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order, one_line
 from mrpbench_core.files.suggestions import suggest
+from mrpbench_core.plugins.contract import is_of
 from mrpbench_core.plugins.importing import is_interrupt, told
 from mrpbench_core.plugins.registry import Registry
 
@@ -168,7 +169,7 @@ class Structure:
         cls = self._references.plugin(chosen, kind, key, default)
         options = {name: inner for name, inner in block.value.items() if name != "plugin"}
         inner = attrs.evolve(block, value=options)
-        if str(cls.__module__).startswith("mrpbench_core."):
+        if is_of(cls):
             return cast("Component", self._options(inner, cls, key, {}, chosen.value))
         try:
             with told(f"{Registry(kind).kind} {chosen.value!r}"):  # defaults, converters and validators are its code

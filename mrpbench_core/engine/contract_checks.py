@@ -20,15 +20,13 @@ from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.observation import Estimate, ScanBatch
 from mrpbench_core.model.execution.orders import Orders, RepeatedOrders
 from mrpbench_core.model.execution.state import State
-from mrpbench_core.model.planning.scenario import Scenario, Task
+from mrpbench_core.model.planning.scenario import MOST_ROBOTS, Scenario, Task
 from mrpbench_core.plugins.kinds import kind_of
 
 T = TypeVar("T")
 _LAST_MODE = int(max(Mode))
 _TURN = 7.0
 """Radians by which a yaw may change without a closer look; more than a whole turn, since it may be wrapped."""
-MOST_ROBOTS = 1_000_000
-"""Robots that a scenario may have."""
 EARLY = 1e-6
 """Seconds by which a scan may be ahead of the clock, because times are rounded."""
 

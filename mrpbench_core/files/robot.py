@@ -13,13 +13,13 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import did_you_mean
 from mrpbench_core.files.urdf import drive_of, mesh_files, read_urdf
 from mrpbench_core.files.yaml import Document, Steps, load
-from mrpbench_core.model.common.fleet import Lidar, RobotModel, Urdf
+from mrpbench_core.model.common.fleet import LEAST_RATE, MOST_BEAMS, Lidar, RobotModel, Urdf
 
 _ROBOTS = Path(str(resources.files("mrpbench_core"))) / "robots"
 _MAY_BE_ZERO = {"min_range"}
-_LEAST = {"rate": 0.01}
+_LEAST = {"rate": LEAST_RATE}
 """Lower bounds of numbers, where there is one."""
-_MOST = {"max_speed": 1e3, "beams": 1e5}
+_MOST = {"max_speed": 1e3, "beams": MOST_BEAMS}
 _MOST_NUMBER = 1e6
 """Of all other numbers: far above that of any robot, and far below what computations cannot represent."""
 

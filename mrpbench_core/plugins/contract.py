@@ -16,7 +16,7 @@ def violation(cls: Any, base: type[Component]) -> str | None:
     """Return why `cls` is not a component of the kind `base`, as a predicate for its name, or None."""
     if not isinstance(cls, type) or not issubclass(cls, base):
         return f"is not a subclass of {base.__name__}"
-    if cls.__module__.startswith(CORE) and not is_of(cls, CORE):
+    if cls.__module__.startswith(CORE) and not is_of(cls):
         return f"says that it is of the module {cls.__module__}, where it is not"
     if inspect.isabstract(cls):
         return f"lacks the methods {', '.join(sorted(cls.__abstractmethods__))}"
@@ -35,7 +35,7 @@ def violation(cls: Any, base: type[Component]) -> str | None:
     return None
 
 
-def is_of(cls: type, package: str | tuple[str, ...]) -> bool:
+def is_of(cls: type, package: str | tuple[str, ...] = CORE) -> bool:
     """Tell whether a class is of a module whose name begins with `package`, and does not only say so."""
     if not str(cls.__module__).startswith(package):
         return False

@@ -12,7 +12,6 @@ attempt stay until the record of the next one is on disk.
 Merging two folders is copying the files of one into the other.
 """
 
-import os
 import secrets
 from datetime import UTC, datetime
 from pathlib import Path
@@ -20,6 +19,7 @@ from pathlib import Path
 import attrs
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.links import followed
 from mrpbench_core.files.printing import file_name
 from mrpbench_core.files.removal import remove_tree
 from mrpbench_core.store.paths import RunPaths
@@ -29,15 +29,11 @@ _ATTEMPTS = 100
 PARTS = ("invocations", "runs", "recordings", "exports", "logs")
 
 
-def _absolute(path: Path) -> Path:
-    return Path(os.path.realpath(path))  # `Path.resolve` raises an error for a loop of links
-
-
 @attrs.frozen
 class ResultsFolder:
     """Paths inside a results folder, all absolute."""
 
-    path: Path = attrs.field(converter=_absolute)
+    path: Path = attrs.field(converter=followed)
 
     @property
     def study(self) -> Path:

@@ -23,6 +23,7 @@ from mrpbench_core.config.schema import schema
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.errors import InputError, InputErrors
 
+SCHEMA = schema()
 WORLDS = {"office", "household", "bottlenecks", "encounters", "generated_rooms"}
 WORLDS |= {"generated_random", "generated_warehouse"}
 """The small ones."""
@@ -50,7 +51,8 @@ NEEDED: dict[str, dict[str, Any]] = {
     "rolling_horizon": {"planner": "prioritized"},
 }
 """Options without a default, by plugin."""
-ALWAYS, OFTEN = {"world", "scenario", "planner"}, {"roadmap", "controller", "dispatcher"}
+CHANCES = {"world": 1.0, "scenario": 1.0, "planner": 1.0, "roadmap": 0.4, "controller": 0.4, "dispatcher": 0.4}
+"""Of keys; 0.15 of the others."""
 LIMITS = {"planning": "5 s", "execution": "30 s", "wall": "60 s", "memory": "3 GiB"}
 DEFECTS = {"crashed", "contract_broken", "promise_broken", "out_of_memory"}
 
@@ -66,13 +68,11 @@ class Drawing:
     def __init__(self, seed: int, extreme: float) -> None:
         self._rng = random.Random(seed)
         self._extreme = extreme
-        self._schema = SCHEMA
 
     def configuration(self) -> dict[str, Any]:
         """Return one as plain data."""
-        chances = dict.fromkeys(ALWAYS, 1.0) | dict.fromkeys(OFTEN, 0.4)
-        keys = self._schema["properties"].items()
-        drawn = {key: self._value(kind) for key, kind in keys if self._rng.random() < chances.get(key, 0.15)}
+        keys = SCHEMA["properties"].items()
+        drawn = {key: self._value(kind) for key, kind in keys if self._rng.random() < CHANCES.get(key, 0.15)}
         drawn |= {"name": "drawn", "seed": self._rng.randrange(1000)}
         drawn.pop("matrix", None)
         if drawn["world"]["plugin"].startswith("generated"):  # these have no lanes
@@ -112,7 +112,7 @@ class Drawing:
         return {name: self._value(kind) for name, kind in drawn.items()}
 
     def _component(self, group: str) -> Any:
-        blocks = [block["properties"] for block in self._schema["$defs"][group]["oneOf"] if "title" in block]
+        blocks = [block["properties"] for block in SCHEMA["$defs"][group]["oneOf"] if "title" in block]
         names = [block["plugin"]["const"] for block in blocks]
         usable = [name for name in names if name not in LEFT_OUT and (group != "mrpbench.worlds" or name in WORLDS)]
         name = self._rng.choice(usable or names)
@@ -127,9 +127,6 @@ def _can_be_drawn(kind: dict[str, Any]) -> bool:
     if options and "examples" not in kind:
         return any(map(_can_be_drawn, options))
     return kind.get("type") != "string" and "none" not in kind.get("enum", ())
-
-
-SCHEMA = schema()
 
 
 def fault_of(configuration: dict[str, Any], ends: Counter[str]) -> str | None:

@@ -3,7 +3,6 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.api.component import between
 from mrpbench_core.builtin.roadmaps.facilities import with_facilities
 from mrpbench_core.builtin.roadmaps.motion import TimedRoadmap, dividing_tick, driving_ticks
 from mrpbench_core.builtin.roadmaps.open_doors import clears_open_doors
@@ -17,8 +16,6 @@ from mrpbench_core.model.planning.roadmap import Raster, Roadmap
 from mrpbench_core.model.worlds.occupancy import Occupancy
 from mrpbench_core.model.worlds.world import World
 
-SIDE = between(0.01, 100)
-"""Of a cell, metres."""
 LIMIT = 10_000_000
 """Largest number of cells of a raster; a larger one means that the cell size is a mistake."""
 

@@ -3,9 +3,8 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.api.component import option
+from mrpbench_core.api.component import between, option
 from mrpbench_core.builtin.roadmaps.cells import (
-    SIDE,
     cell_roadmap,
     connect,
     empty_raster,
@@ -19,7 +18,7 @@ from mrpbench_core.checking.clearance import solids
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap
-from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.occupancy import CELL_SIZES, Occupancy
 from mrpbench_core.model.worlds.world import World
 
 DEFAULT_CELL_SIZE = 0.4
@@ -39,7 +38,7 @@ class GridRoadmap(TimedRoadmap):
         None,
         help="Side of a cell; by default that of the map's own raster if robots fit into its cells, else 0.4 m.",
         unit="m",
-        validator=attrs.validators.optional(SIDE),
+        validator=attrs.validators.optional(between(*CELL_SIZES)),
     )
 
     def build(self, world: World, fleet: Fleet) -> Roadmap:

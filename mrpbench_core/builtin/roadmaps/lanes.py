@@ -5,9 +5,8 @@ from typing import Literal
 import attrs
 import numpy as np
 
-from mrpbench_core.api.component import option
+from mrpbench_core.api.component import between, option
 from mrpbench_core.builtin.roadmaps.cells import (
-    SIDE,
     cell_roadmap,
     connect,
     empty_raster,
@@ -25,7 +24,7 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap
-from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.occupancy import CELL_SIZES, Occupancy
 from mrpbench_core.model.worlds.world import World
 
 _ROUNDING = 1e-6
@@ -45,7 +44,7 @@ class Lanes(TimedRoadmap):
     Complex and Cluttered Environments", ICRA 2023, with every quirk of its code; it ignores walls.
     """
 
-    cell_size: float = option(0.4, help="Side of a cell.", unit="m", validator=SIDE)
+    cell_size: float = option(0.4, help="Side of a cell.", unit="m", validator=between(*CELL_SIZES))
     compatible: Literal["mrp_bench"] | None = option(
         None,
         help="`mrp_bench`: exactly the raster of the original benchmark.",

@@ -6,7 +6,7 @@ from typing import Literal
 import attrs
 import numpy as np
 
-from mrpbench_core.api.component import option
+from mrpbench_core.api.component import between, option
 from mrpbench_core.api.scenario import ScenarioSource
 from mrpbench_core.builtin.scenarios.places import (
     Places,
@@ -21,7 +21,7 @@ from mrpbench_core.model.common.arrays import Float, Int, Int16
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.conflicts import TOLERANCE
 from mrpbench_core.model.planning.roadmap import Roadmap
-from mrpbench_core.model.planning.scenario import Scenario
+from mrpbench_core.model.planning.scenario import MOST_ROBOTS, Scenario
 from mrpbench_core.model.worlds.world import World
 
 STARTS, GOALS = 0, 1
@@ -39,9 +39,7 @@ class Random(ScenarioSource):
     goals), sorted; so the first of more robots of one kind start and end, on the same seed, where fewer do.
     """
 
-    robots: int = option(
-        help="number of robots", validator=attrs.validators.and_(attrs.validators.ge(1), attrs.validators.le(10**6))
-    )
+    robots: int = option(help="number of robots", validator=between(1, MOST_ROBOTS))
     compatible: Literal["mrp_bench"] | None = option(
         None,
         help="mrp_bench: the draw of the original, random.sample after random.seed(seed) for starts and seed + 1 for "

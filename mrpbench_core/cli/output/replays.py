@@ -15,6 +15,7 @@ from mrpbench_core.config.canonical import json_scalar
 from mrpbench_core.engine.processes.call import in_worker
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.links import followed
 from mrpbench_core.files.yaml import load as load_yaml
 from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.local import is_local
@@ -145,5 +146,4 @@ def make_pair(report: Report, page: Path, first: int, second: int) -> str | None
 
 
 def _address(file: Path, page: Path) -> str:
-    folder = Path(os.path.realpath(page)).parent
-    return quote(Path(os.path.relpath(file, folder)).as_posix())  # also a colon, else of a scheme
+    return quote(Path(os.path.relpath(file, followed(page).parent)).as_posix())  # also a colon, else of a scheme

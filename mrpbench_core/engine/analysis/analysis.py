@@ -23,6 +23,7 @@ from mrpbench_core.engine.record import RunError, RunRecord, StoredRecord
 from mrpbench_core.engine.stages.measure import describe, measure
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.jsonl import Writer, line
+from mrpbench_core.files.links import followed
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.files.scenario import read_scenario
 from mrpbench_core.model.common.fleet import Fleet
@@ -105,7 +106,7 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
         repeat=0,
         provenance={**_code(analysis), "machine": machine(), "live": False},
         analysis={
-            "bag": Path(os.path.realpath(analysis.bag)).name,
+            "bag": followed(analysis.bag).name,
             "sources": {track.robot: f"{track.source}: {track.topic}" for track in found.tracks},
             "planned": run.planned,
             "notes": [*found.notes, *found.gaps, *_unknown_end(found)],

@@ -1,7 +1,6 @@
 """Makes a bundle of results folders."""
 
 import json
-import os
 from collections.abc import Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
@@ -14,6 +13,7 @@ from mrpbench_core.engine.bundles.folder import Documents, read_documents
 from mrpbench_core.engine.bundles.inputs import collect_inputs, full_names
 from mrpbench_core.engine.bundles.sample import drawn
 from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.files.links import followed
 from mrpbench_core.files.text import counted
 from mrpbench_core.store.bundle.archive import pack
 from mrpbench_core.store.bundle.bag import tag_files
@@ -31,10 +31,6 @@ _SHOWN = 3
 """Runs that an error names."""
 
 
-def _resolved(path: Path) -> Path:
-    return Path(os.path.realpath(path))
-
-
 @attrs.frozen(kw_only=True)
 class PublishOptions:
     """What the publisher decides."""
@@ -47,7 +43,7 @@ class PublishOptions:
     """Date; None = that of the newest invocation, so that the same results give the same bundle."""
     recordings: float = 1.0
     """The share of the recordings to include, drawn by the ids of their runs."""
-    inputs: Path = attrs.field(factory=Path.cwd, converter=_resolved)
+    inputs: Path = attrs.field(factory=Path.cwd, converter=followed)
     """Folder of the configuration."""
     left_out: tuple[str, ...] = ()
     """Patterns of the names of inputs that the bundle gives by SHA-256 only, such as `*.map`."""

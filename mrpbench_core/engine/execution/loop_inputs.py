@@ -24,6 +24,7 @@ from mrpbench_core.engine.execution.task_manager import TaskManager
 from mrpbench_core.engine.own import Handed
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.plugins.contract import is_of
 from mrpbench_core.plugins.provenance import origin
 
 GROUND_TRUTH = "mrpbench_core.builtin.localizers.ground_truth"
@@ -70,7 +71,7 @@ def granted_localizer(config: RunConfig) -> str | None:
     The localizer `ground_truth` of the core does not need it, because its name says what it is given.
     """
     localizer = config.localizer
-    if localizer is None or not localizer.needs_truth or type(localizer).__module__ == GROUND_TRUTH:
+    if localizer is None or not localizer.needs_truth or is_of(type(localizer), GROUND_TRUTH):
         return None
     return str(origin(type(localizer))["name"])
 

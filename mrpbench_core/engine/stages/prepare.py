@@ -21,6 +21,7 @@ from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario, Task
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.model.worlds.world import World
+from mrpbench_core.plugins.contract import is_of
 from mrpbench_core.plugins.provenance import components_in
 
 _WORLD: list[tuple[WorldSource, World]] = []
@@ -88,7 +89,7 @@ def prepare(config: RunConfig) -> None:
     for entry in config.fleet:
         robot_model(entry)
     components = components_in((config.world, config.roadmap, config.scenario))
-    if all(type(component).__module__.startswith("mrpbench_core.") for component in components):
+    if all(is_of(type(component)) for component in components):
         world = _world(config.world)
         _roadmap(config.roadmap, world, build_fleet(config, check_size(config.scenario.size())))
         if not config.world.reads():  # the content of these files may change

@@ -19,6 +19,7 @@ from mrpbench_core.engine.processes.job import Failure, Job, JobOutcome
 from mrpbench_core.engine.processes.slots import close_slots, run_in_slot
 from mrpbench_core.engine.record import RunRecord
 from mrpbench_core.files.errors import InputError, one_line
+from mrpbench_core.plugins.contract import is_of
 
 LOG = logging.getLogger(__name__)
 PATIENCE_S = 60.0
@@ -91,9 +92,9 @@ def opened(source: ExecutorSource, workers: int, slots: str) -> Iterator[Calls]:
 @contextmanager
 def _named(source: ExecutorSource, call: str) -> Iterator[None]:
     """Name the executor in errors that it raises, and say when a call of it takes long: nothing can end the call."""
-    timer = threading.Timer(PATIENCE_S, _remind, (source, call))
-    timer.daemon = True
-    if not type(source).__module__.startswith("mrpbench_core."):
+    timer = None if is_of(type(source)) else threading.Timer(PATIENCE_S, _remind, (source, call))
+    if timer is not None:
+        timer.daemon = True
         timer.start()
     try:
         yield
@@ -102,7 +103,8 @@ def _named(source: ExecutorSource, call: str) -> Iterator[None]:
     except BaseException as error:
         raise InputError(f"the {title(source)} raised {one_line(error)}") from error
     finally:
-        timer.cancel()
+        if timer is not None:
+            timer.cancel()
 
 
 def _remind(source: ExecutorSource, call: str) -> None:

@@ -5,6 +5,9 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Float, array
 
+MOST_BEAMS, LEAST_RATE = 100_000, 0.01
+"""Bounds of the beams of a lidar and of its scans in a second."""
+
 
 @attrs.frozen(kw_only=True, cache_hash=True)
 class Lidar:

@@ -11,6 +11,8 @@ import numpy as np
 from mrpbench_core.model.common.arrays import Float, Int16, Int32, array
 
 Value = TypeVar("Value")
+MOST_ROBOTS = 1_000_000
+"""Robots that a scenario may have."""
 
 
 @attrs.frozen(kw_only=True)

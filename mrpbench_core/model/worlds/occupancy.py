@@ -5,6 +5,9 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float, Int, array
 
+CELL_SIZES = 0.01, 100
+"""Least and largest side of a cell that a configuration may choose, metres."""
+
 
 @attrs.frozen(kw_only=True)
 class Occupancy:

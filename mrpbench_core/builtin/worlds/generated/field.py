@@ -6,7 +6,7 @@ import math
 import attrs
 import numpy as np
 
-from mrpbench_core.api.component import option
+from mrpbench_core.api.component import between, option
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.builtin.worlds.barn import RADIUS, field_world, path_length
 from mrpbench_core.builtin.worlds.generated.raster import chances
@@ -34,7 +34,7 @@ class GeneratedField(WorldSource):
     fill: float = option(
         0.2,
         help="probability that a cell is filled at first; the challenge's are 0.15 to 0.3",
-        validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.le(0.35)),
+        validator=between(0, 0.35),
     )
     smoothings: int = option(
         3, help="steps of the automaton; the challenge's are 2 to 4", validator=attrs.validators.in_(range(11))

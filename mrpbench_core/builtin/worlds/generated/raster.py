@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from mrpbench_core.api.component import between
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.worlds.occupancy import Occupancy
@@ -10,8 +9,6 @@ from mrpbench_core.model.worlds.world import Level, World
 
 CELL_SIZE = 0.4
 """metres; wide enough for one small robot."""
-SIDE = between(0.01, 100)
-"""Of a cell, metres."""
 LIMIT = 10_000_000
 """Largest number of cells of a world."""
 

@@ -3,10 +3,11 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.api.component import option
+from mrpbench_core.api.component import between, option
 from mrpbench_core.api.world import WorldSource
-from mrpbench_core.builtin.worlds.generated.raster import CELL_SIZE, SIDE, chances, free_raster, raster_world
+from mrpbench_core.builtin.worlds.generated.raster import CELL_SIZE, chances, free_raster, raster_world
 from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.worlds.occupancy import CELL_SIZES
 from mrpbench_core.model.worlds.world import World
 
 
@@ -24,9 +25,9 @@ class GeneratedRooms(WorldSource):
     extra_doors: float = option(
         0.3,
         help="Chance of a door in a wall that the tree leaves closed.",
-        validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.le(1)),
+        validator=between(0, 1),
     )
-    cell_size: float = option(CELL_SIZE, help="Side of a cell.", unit="m", validator=SIDE)
+    cell_size: float = option(CELL_SIZE, help="Side of a cell.", unit="m", validator=between(*CELL_SIZES))
     seed: int = option(0, help="Seed of the random doors.")
 
     def __attrs_post_init__(self) -> None:

@@ -2,9 +2,10 @@
 
 import attrs
 
-from mrpbench_core.api.component import option
+from mrpbench_core.api.component import between, option
 from mrpbench_core.api.world import WorldSource
-from mrpbench_core.builtin.worlds.generated.raster import CELL_SIZE, SIDE, chances, free_raster, raster_world
+from mrpbench_core.builtin.worlds.generated.raster import CELL_SIZE, chances, free_raster, raster_world
+from mrpbench_core.model.worlds.occupancy import CELL_SIZES
 from mrpbench_core.model.worlds.world import World
 
 
@@ -26,9 +27,9 @@ class GeneratedWarehouse(WorldSource):
     missing: float = option(
         0.0,
         help="Probability that a shelf is missing.",
-        validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.le(1)),
+        validator=between(0, 1),
     )
-    cell_size: float = option(CELL_SIZE, help="Side of a cell.", unit="m", validator=SIDE)
+    cell_size: float = option(CELL_SIZE, help="Side of a cell.", unit="m", validator=between(*CELL_SIZES))
     seed: int = option(0, help="Seed of the missing shelves.")
 
     def load(self) -> World:

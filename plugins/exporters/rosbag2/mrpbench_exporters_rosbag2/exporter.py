@@ -8,7 +8,7 @@ from pathlib import Path
 import attrs
 import numpy as np
 
-from mrpbench_core.api.component import option
+from mrpbench_core.api.component import between, option
 from mrpbench_core.api.exporter import Exporter, ExporterSession
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.run import RunContext
@@ -50,7 +50,7 @@ class Rosbag2(Exporter):
         0.0,
         help="time of the bag's clock when the run begins",
         unit="s",
-        validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.le(LATEST_START)),
+        validator=between(0, LATEST_START),
     )
     topics: tuple[str, ...] = option(
         ("*",), help="patterns of the topics to write, e.g. `/tf*` or `/robot_*/odom`", validator=check_patterns

@@ -9,7 +9,7 @@ import attrs
 from mrpbench_native import mapf
 from mrpbench_native.options import Option
 
-from mrpbench_core.api.component import option
+from mrpbench_core.api.component import between, option
 from mrpbench_core.api.described import as_option, described, validator_of
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.model.common.arrays import Int32
@@ -79,7 +79,7 @@ class RobustPlanner(NativePlanner):
         0,
         help="The plan is k-robust (Atzmon et al., JAIR 2020): it has no conflict although each robot is up to `k` "
         "ticks late anywhere. Costs, bounds and proofs that there is no plan are those of such plans",
-        validator=attrs.validators.and_(attrs.validators.ge(0), attrs.validators.le(1 << 20)),
+        validator=between(0, 1 << 20),
     )
     p: float = option(
         0.0,

@@ -94,7 +94,7 @@ class League(DiscreteSimulator):
     size: float = option(
         1.0,
         help="side of a robot's square in 2026, in cells",
-        validator=attrs.validators.and_(attrs.validators.ge(0.01), attrs.validators.le(1)),
+        validator=between(0.01, 1),
     )
     rules: Path | None = option(
         None, help="a problem file whose season, ticks, size and delays hold instead of these options"

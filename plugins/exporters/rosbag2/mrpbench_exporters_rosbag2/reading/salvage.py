@@ -43,16 +43,17 @@ def _sqlite(file: Path, folder: Path) -> Path:
         ]
         for name in sorted(set(tables) - computed):
             with suppress(sqlite3.Error, UnicodeDecodeError):  # the latter of words about damaged names
-                rows = old.execute(f"SELECT * FROM {_quoted(name)}")  # noqa: S608 - its own table
-                columns = [_quoted(column) for column, *_ in rows.description]
-                new.execute(f"CREATE TABLE {_quoted(name)} ({', '.join(columns)})")
+                rows = old.execute(f"SELECT * FROM {quoted(name)}")  # noqa: S608 - its own table
+                columns = [quoted(column) for column, *_ in rows.description]
+                new.execute(f"CREATE TABLE {quoted(name)} ({', '.join(columns)})")
                 places = ", ".join("?" * len(columns))
-                new.executemany(f"INSERT INTO {_quoted(name)} VALUES ({places})", rows)  # noqa: S608
+                new.executemany(f"INSERT INTO {quoted(name)} VALUES ({places})", rows)  # noqa: S608
         new.execute("COMMIT")
     return copy
 
 
-def _quoted(name: str) -> str:
+def quoted(name: str) -> str:
+    """A name in SQL, whatever characters it has."""
     return '"' + name.replace('"', '""') + '"'
 
 
