@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.store.paths import RunPaths

@@ -16,7 +16,7 @@ from typing import Any
 
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.observers import Observers
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 

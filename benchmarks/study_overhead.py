@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.engine.study.options import StudyOptions
 from mrpbench_core.engine.study.reading import read_study

@@ -13,7 +13,6 @@ from mrpbench_core.api.importer import Importer, Observed, Signal, Track
 from mrpbench_core.api.localizer import Localizer, LocalizerSession
 from mrpbench_core.api.metric import Column, Metric, Value
 from mrpbench_core.api.navigator import Navigator, NavigatorSession
-from mrpbench_core.api.plan_filter import PlanFilter
 from mrpbench_core.api.planner import Planner, PlannerSession, Promise
 from mrpbench_core.api.recovery import Recovery, RecoverySession, Surroundings
 from mrpbench_core.api.roadmap import RoadmapBuilder
@@ -30,7 +29,6 @@ KINDS: dict[str, type[Component]] = {
     "task_source": TaskSource,
     "assigner": Assigner,
     "planner": Planner,
-    "plan_filter": PlanFilter,
     "dispatcher": Dispatcher,
     "navigator": Navigator,
     "controller": Controller,
@@ -76,7 +74,6 @@ __all__ = [
     "Navigator",
     "NavigatorSession",
     "Observed",
-    "PlanFilter",
     "Planner",
     "PlannerSession",
     "Promise",

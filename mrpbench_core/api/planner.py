@@ -17,11 +17,10 @@ class Promise(StrEnum):
     OPTIMAL = "optimal"
     """Least sum of costs."""
     BOUNDED = "bounded"
-    """The sum of costs is at most the planner's option `w` times `PlanResult.lower_bound`."""
+    """The sum of costs is at most `Planner.suboptimality` times `PlanResult.lower_bound`."""
     ROBUST = "robust"
-    """There is no conflict although each robot is up to as many ticks late as the planner's option `k` says, and the
-    other promises are about such plans. With its option `p`, if that is not 0, a planner promises neither costs nor to
-    find a plan, because waits are added afterwards."""
+    """There is no conflict although each robot is up to `Planner.robustness` ticks late, and the other promises are about
+    such plans."""
     COMPLETE = "complete"
     """Finds a plan, given enough time, if one exists."""
     DETERMINISTIC = "deterministic"
@@ -55,6 +54,21 @@ class Planner(Component):
     def start(self) -> PlannerSession:
         """Begin an execution. By default every call of the session is a call of `plan`, and nothing is kept."""
         return _OneShot(self)
+
+    @property
+    def kept_promises(self) -> frozenset[Promise]:
+        """The promises with the options of this planner, by default all of `promises`."""
+        return self.promises
+
+    @property
+    def suboptimality(self) -> float:
+        """The factor w of the promise `BOUNDED`; a planner that promises it overrides this."""
+        return 1.0
+
+    @property
+    def robustness(self) -> int:
+        """The ticks k of the promise `ROBUST`; a planner that promises it overrides this."""
+        return 0
 
     @property
     def assigns(self) -> bool:

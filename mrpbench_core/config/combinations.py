@@ -130,7 +130,7 @@ def _idle_options(component: Component) -> Mapping[str, str]:
 
 def _of_planning_only(config: RunConfig) -> Iterator[tuple[str, str]]:
     for key in (*ONLY_EXECUTION, *EXECUTION, "export", "recording"):
-        if key != "plan_filter" or config.plan_filter is not None:
+        if key != "plan_filter" or config.plan_filter != "none":
             yield key, NO_SIMULATOR
 
 
@@ -184,7 +184,7 @@ def _place(root: Item, key: str) -> Item:
 
 def _is_set(value: Any) -> bool:
     """Tell whether a setting differs from having none."""
-    return bool(value) if isinstance(value, bool | Mapping | tuple) else value not in (None, Noise(), Replanning())
+    return bool(value) if isinstance(value, bool | Mapping | tuple) else value not in (None, "none", Noise(), Replanning())
 
 
 def _has_lidar(entry: FleetEntry) -> bool:

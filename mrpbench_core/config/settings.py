@@ -16,7 +16,6 @@ from mrpbench_core.api import (
     Localizer,
     Metric,
     Navigator,
-    PlanFilter,
     Planner,
     RoadmapBuilder,
     ScenarioSource,
@@ -30,6 +29,7 @@ from mrpbench_core.config.delays import Delays
 from mrpbench_core.config.faults import Faults
 from mrpbench_core.files.robot import robot_file, robot_reads
 from mrpbench_core.model.common.fleet import LEAST_RATE, MOST_BEAMS
+from mrpbench_core.model.runs.routing import PlanFilter
 
 ROBOT = "turtlebot3_burger"
 _SHARE = between(0, 1)
@@ -238,7 +238,9 @@ class RunConfig:
         "hungarian", help="decides which robot does which task; with `scenario: movingai` the default is `identity`"
     )
     planner: Planner = block(help="turns the problem into one timed path per robot")
-    plan_filter: PlanFilter | None = block("none", help="thins out the waypoints of the plan before it is driven")
+    plan_filter: PlanFilter = option(
+        "none", help="`mrp_bench_stairs`: robots cut the corners of staircases, as in the original MRP-Bench"
+    )
     execution: Literal["simulated", "schedule_only"] = option(
         "simulated",
         help="schedule_only: without simulator, navigator, controller and localizer; moves take the durations of the "

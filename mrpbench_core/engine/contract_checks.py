@@ -14,7 +14,6 @@ from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.checking.covariances import check_covariances
 from mrpbench_core.checking.recording import LARGEST
-from mrpbench_core.engine.own import own_returned
 from mrpbench_core.model.common.arrays import Float, Int, Int16, Int32, frozen_array
 from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.observation import Estimate, ScanBatch
@@ -33,8 +32,6 @@ EARLY = 1e-6
 
 class ContractChecks:
     """Checks what the components of one execution return.
-
-    Each method returns a copy that no component holds.
 
     Args:
         length: i8[n] segments of each robot's path.
@@ -67,8 +64,6 @@ class ContractChecks:
         else:
             self._box[:, :2] = np.where(np.isfinite(reach), reach / 1.5, -1.0)[:, None]
         self._before: State | None = None
-        self._motion: Motion | None = None
-        """The last motion checked, None after a new plan."""
         self._robots, self._movers = len(length), movers
         nothing: Int32 = np.zeros(self._robots, np.int32)
         self._released = self._reached = self._cleared = nothing
@@ -82,22 +77,20 @@ class ContractChecks:
         self.length = length
         self._released, self._reached = self._released - cut, self._reached - cut
         self._cleared = np.maximum(self._cleared - cut, 0)
-        self._motion = None
 
     def state(self, state: State, push: float = 0.0) -> State:
         """Check the state that a simulator returns; movers may have pushed robots by `push` metres at once."""
         kind, before = "the simulator", self._before
         _require_class(kind, state, State)
-        state = own_returned(state, kind, before)
         close = before is not None and self._is_close(state.pose, before.pose)
         if not close:
             self._finite(kind, "pose", state.pose)
         self._finite(kind, "twist", state.twist)
-        if before is None or state.level is not before.level:
+        if before is None or not np.array_equal(state.level, before.level):
             self._one_each(kind, "level", state.level)
             self._no_robot(kind, "a level that does not exist", (state.level < 0) | (state.level >= self._levels))
         self._check_facilities(state.facilities)
-        if before is None or state.contacts is not before.contacts:
+        if len(state.contacts):
             self._check_contacts(state.contacts)
         if before is not None and not close:
             shift = state.pose - before.pose
@@ -144,8 +137,7 @@ class ContractChecks:
         """Check the scans that a simulator returns at `now`."""
         if not isinstance(batches, tuple | list):
             _refuse("the simulator", f"{type(batches).__name__} instead of scans")
-        found: tuple[Any, ...] = own_returned(tuple(batches), "the simulator")
-        for batch in found:
+        for batch in batches:
             _require_class("the simulator", batch, ScanBatch)
             if not (isinstance(batch.stamp, float | int) and self._scanned <= batch.stamp <= now + EARLY):
                 _refuse(
@@ -160,12 +152,11 @@ class ContractChecks:
                 _refuse("the simulator", "ranges that are negative or no numbers")
             if self._beams is not None and np.count_nonzero(self._beams[batch.robot] != batch.ranges.shape[1]):
                 _refuse("the simulator", f"scans of {batch.ranges.shape[1]} beams by robots that have other lidars")
-        return found
+        return tuple(batches)
 
     def estimate(self, estimate: Estimate) -> Estimate:
         """Check the estimate that a localizer returns."""
         _require_class("the localizer", estimate, Estimate)
-        estimate = own_returned(estimate, "the localizer")
         self._finite("the localizer", "pose", estimate.pose)
         if estimate.covariance is not None:
             fault = check_covariances(estimate.covariance, self._robots)
@@ -177,7 +168,6 @@ class ContractChecks:
         """Check the orders that a dispatcher returns."""
         kind = "the dispatcher"
         _require_class(kind, orders, Orders)
-        orders = own_returned(orders, kind)
         self._one_each(kind, "released", orders.released)
         self._no_robot(kind, "released less than before", orders.released < self._released)
         self._no_robot(kind, "released more segments than there are", orders.released > self.length)
@@ -205,7 +195,6 @@ class ContractChecks:
         """Check the orders for several executions that a dispatcher returns."""
         kind = "the dispatcher"
         _require_class(kind, orders, RepeatedOrders)
-        orders = own_returned(orders, kind)
         released, in_step = orders.released, orders.in_step
         if released.shape != (executions, self._robots):
             _refuse(kind, f"released of shape {released.shape} for {executions} executions of {self._robots} robots")
@@ -221,16 +210,7 @@ class ContractChecks:
         """Check the motion that a navigator returns, after the orders of the same period."""
         kind = "the navigator"
         _require_class(kind, motion, Motion)
-        before = self._motion
-        motion = self._motion = own_returned(motion, kind, before)
         self._finite(kind, "twist", motion.twist)
-        if (
-            before is not None
-            and motion.reached is before.reached
-            and motion.cleared is before.cleared
-            and motion.mode is before.mode
-        ):
-            return motion  # nothing has changed, and no robot has got less released than before
         for name in ("reached", "cleared", "mode"):
             self._one_each(kind, name, getattr(motion, name))
         self._no_robot(kind, "reached less than before", motion.reached < self._reached)
@@ -274,11 +254,6 @@ def check_returned(component: Component, returned: T, wanted: type) -> T:
     return returned
 
 
-def check_copied(component: Component, returned: T, wanted: type) -> T:
-    """Check the class of what a component returns, which the engine uses from now on; return a copy."""
-    return own_returned(check_returned(component, returned, wanted), _kind(component))
-
-
 def _kind(component: Component) -> str:
     return f"the {kind_of(component.group).replace('_', ' ')}"
 
@@ -290,24 +265,22 @@ def check_made(kind: str, fault: str | None) -> None:
 
 
 def check_released(tasks: Any) -> Sequence[Task]:
-    """Check the class of what a stream of tasks returns; return a copy."""
+    """Check the class of what a stream of tasks returns."""
     if not isinstance(tasks, Sequence):
         _refuse("the task source", f"{type(tasks).__name__} instead of tasks")
-    found: tuple[Task, ...] = own_returned(tuple(tasks), "the task source")
-    for task in found:
+    for task in tasks:
         _require_class("the task source", task, Task)
-    return found
+    return tasks
 
 
 def check_places(places: Any) -> tuple[Float, Int16] | None:
-    """Check the places at which a stream of tasks says that errands may be; return a copy."""
-    found: Any = own_returned(places, "the task source")
-    if found is None:
+    """Check the places at which a stream of tasks says that errands may be."""
+    if places is None:
         return None
     try:
-        position, level = frozen_array(found[0], "f8", 2), frozen_array(found[1], "i2")
+        position, level = frozen_array(places[0], "f8", 2), frozen_array(places[1], "i2")
     except (TypeError, ValueError, IndexError, KeyError) as error:
-        _refuse("the task source", f"places that are none: {error}")
+        _refuse("the task source", f"something other than places: {error}")
     if level.shape != (len(position),):
         _refuse("the task source", f"{len(position)} places and levels of shape {level.shape}")
     return position, level
@@ -322,7 +295,6 @@ def check_ended(ended: Any) -> bool:
 
 def check_size(robots: Any) -> int:
     """Check the number of robots that a scenario says."""
-    robots = own_returned(robots, "the scenario")
     if not isinstance(robots, int | np.integer) or not 0 <= robots <= MOST_ROBOTS:
         _refuse("the scenario", f"{robots!r:.40} instead of a number of robots")
     return int(robots)
@@ -341,20 +313,11 @@ def check_drawn(scenario: Scenario, robots: int) -> Scenario:
     return scenario
 
 
-def check_kept(kept: Any, waypoints: int) -> NDArray[np.bool_]:
-    """Check the waypoints that a plan filter keeps; return a copy."""
-    kept = own_returned(kept, "the plan filter")
-    if not isinstance(kept, np.ndarray) or kept.dtype != bool or kept.shape != (waypoints,):
-        _refuse("the plan filter", f"something other than bool[{waypoints}]")
-    if not (kept[0] and kept[-1]):
-        _refuse("the plan filter", "a path without its start or its end")
-    return kept
-
-
 def _require_class(kind: str, returned: object, wanted: type) -> None:
-    if not issubclass(type(returned), wanted):  # `isinstance` believes what an object says of its class
+    if not isinstance(returned, wanted):
         _refuse(kind, f"{type(returned).__name__} instead of {wanted.__name__}")
 
 
 def _refuse(kind: str, what: str) -> NoReturn:
-    raise BrokenContractError(f"{kind} returned {what}")
+    word = kind.removeprefix("the ")
+    raise BrokenContractError(f"{kind} returned {what}", "tasks" if word == "task source" else word)

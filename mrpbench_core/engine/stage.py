@@ -6,12 +6,17 @@ from typing import Any
 import attrs
 
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.engine.observers import Observers
 from mrpbench_core.model.runs.status import RunStatus, Stage
+from mrpbench_core.plugins.hooks import Hooks
+from mrpbench_core.referee.verdict import Ending
 from mrpbench_core.store.paths import RunPaths
 
 Announce = Callable[[Stage, dict[str, Any]], None]
 """Called with each stage before it begins, and with facts about the run so far."""
+
+
+def ignore(*_: Any, **__: Any) -> None:
+    """Take announcements and progress where nobody waits for them."""
 
 
 @attrs.frozen(kw_only=True)
@@ -19,10 +24,15 @@ class RunInputs:
     """The inputs that the stages of one run share."""
 
     config: RunConfig
+    run_id: str
     paths: RunPaths
-    announce: Announce
-    observers: Observers
-    timing: dict[str, Any]
+    instance: str | None
+    """Name of the instance, for the recording; None: the recording holds it."""
+    announce: Announce = ignore
+    hooks: Hooks = attrs.field(factory=Hooks)
+    progress: Callable[..., None] = ignore
+    """Called with `simulated_s`, `limit_s`, `arrived` and `robots`, at most twice a second of wall time."""
+    timing: dict[str, Any] = attrs.field(factory=dict)
     """Receives wall and CPU times; part of the record."""
 
 
@@ -33,3 +43,10 @@ class RunEnded(Exception):  # noqa: N818 - not an error
         super().__init__(message)
         self.status = status
         self.stage = stage
+        self.scenario_id: str | None = None
+        """The scenario, where the run ended before there was an instance."""
+
+    @property
+    def ending(self) -> Ending:
+        """The same as plain data."""
+        return Ending(status=self.status, stage=self.stage, message=str(self))

@@ -1,12 +1,9 @@
 """Call lifecycle hooks. A hook that raises is logged once and disabled, so that no result depends on it."""
 
-import copy
 import logging
 import os
-from collections.abc import Callable, Mapping
 from typing import Any
 
-import attrs
 import pluggy
 from packaging.utils import canonicalize_name
 
@@ -20,22 +17,17 @@ LOG = logging.getLogger("mrpbench.hooks")
 DISABLE = "MRPBENCH_DISABLE_PLUGINS"
 """Environment variable: names of hook plugins or distributions that are not loaded, separated by commas."""
 
-
 _SPECIFIED = tuple(name for name in vars(specifications) if name.startswith("mrpbench_"))
 
 
-@attrs.frozen
-class _Implementation:
-    plugin: str
-    function: Callable[..., Any]
-    arguments: tuple[str, ...]
-
-
 class Hooks:
-    """The hook plugins of one process."""
+    """The hook plugins of one process, in a `pluggy.PluginManager`."""
 
     def __init__(self) -> None:
-        self._known: dict[str, list[_Implementation]] = {}
+        self._manager = pluggy.PluginManager("mrpbench")
+        self._manager.add_hookspecs(specifications)
+        self._callers: dict[str, list[tuple[str, pluggy.HookCaller]]] = {}
+        """By hook, the name of each plugin with what calls that plugin alone."""
         self._off: set[str] = set()
         self.refused: list[str] = []
         """Plugins that could not be registered."""
@@ -51,28 +43,20 @@ class Hooks:
 
     def register(self, plugin: object, name: str) -> None:
         """Add the implementations of a plugin; a plugin with unknown hooks or wrong arguments is refused."""
-        manager = pluggy.PluginManager("mrpbench")
-        manager.add_hookspecs(specifications)
         try:
-            manager.register(plugin, name)
-            callers = manager.get_hookcallers(plugin) or []
+            self._manager.register(plugin, name)
+            fault = self._fault(plugin)
         except BaseException as error:  # noqa: BLE001 - a plugin's attributes may raise anything
-            self._refuse(name, one_line(error))
-            return
-        for caller in callers:
-            if not caller.has_spec():
-                near = closest(caller.name, _SPECIFIED)
-                self._refuse(name, f"there is no hook {caller.name}" + (f"; did you mean {near}?" if near else ""))
-                return
-            if any(found.hookwrapper or found.wrapper for found in caller.get_hookimpls()):
-                self._refuse(name, f"{caller.name} is a wrapper; hooks only observe")
-                return
-        if not callers:
-            self._refuse(name, "it implements no hook; mark functions with mrpbench_core.api.hookimpl")
-        for caller in callers:
-            for found in caller.get_hookimpls():
-                implementation = _Implementation(name, found.function, tuple(found.argnames))
-                self._known.setdefault(caller.name, []).append(implementation)
+            fault = one_line(error)
+        if fault is None:
+            for caller in self._manager.get_hookcallers(plugin) or []:
+                self._callers.setdefault(caller.name, []).append((name, caller))
+        else:
+            if self._manager.has_plugin(name):
+                self._manager.unregister(name=name)
+            self._refuse(name, fault)
+        for hook, callers in self._callers.items():
+            self._callers[hook] = [(owner, self._alone(hook, owner)) for owner, _ in callers]
 
     def load(self, provider: Provider) -> None:
         """Import and register an installed plugin."""
@@ -86,29 +70,43 @@ class Hooks:
 
     def has(self, hook: str) -> bool:
         """Tell whether any plugin implements `hook`."""
-        return hook in self._known
+        return hook in self._callers
 
     def call(self, hook: str, **arguments: Any) -> None:
-        """Call every implementation of `hook`. Mappings are copied, so that no plugin can change a record."""
-        for found in self._known.get(hook, ()):
-            if found.plugin in self._off:
+        """Call every implementation of `hook`, except of plugins that raised in this run."""
+        for name, caller in self._callers.get(hook, ()):
+            if name in self._off:
                 continue
             try:
-                found.function(**{name: _own(arguments[name]) for name in found.arguments})
+                caller(**arguments)
             except BaseException as error:  # noqa: BLE001 - calling a plugin runs its code
-                self._off.add(found.plugin)
-                LOG.warning("hook plugin %r is disabled for this run: %s: %s", found.plugin, hook, one_line(error))
+                self._off.add(name)
+                LOG.warning("hook plugin %r is disabled for this run: %s: %s", name, hook, one_line(error))
 
     def check(self) -> None:
         """Log what each plugin says that keeps it from working, before any run."""
-        for found in self._known.get("mrpbench_check", ()):
+        for name, caller in self._callers.get("mrpbench_check", ()):
             try:
-                problem = found.function()
-                said = " ".join(str(problem)[:LONGEST].split()) if problem else ""
+                said = " ".join(" ".join(map(str, caller()))[:LONGEST].split())
             except BaseException as error:  # noqa: BLE001 - calling a plugin runs its code
                 said = f"mrpbench_check: {one_line(error)}"
             if said:
-                LOG.warning("hook plugin %r: %s", found.plugin, said)
+                LOG.warning("hook plugin %r: %s", name, said)
+
+    def _fault(self, plugin: object) -> str | None:
+        """Why a registered plugin is no hook plugin, or None."""
+        callers = self._manager.get_hookcallers(plugin) or []
+        for caller in callers:
+            if not caller.has_spec():
+                near = closest(caller.name, _SPECIFIED)
+                return f"there is no hook {caller.name}" + (f"; did you mean {near}?" if near else "")
+            if any(found.hookwrapper or found.wrapper for found in caller.get_hookimpls()):
+                return f"{caller.name} is a wrapper; hooks only observe"
+        return None if callers else "it implements no hook; mark functions with mrpbench_core.api.hookimpl"
+
+    def _alone(self, hook: str, name: str) -> pluggy.HookCaller:
+        others = [plugin for owner, plugin in self._manager.list_name_plugin() if owner != name]
+        return self._manager.subset_hook_caller(hook, others)
 
     def _refuse(self, name: str, reason: str) -> None:
         self.refused.append(name)
@@ -132,6 +130,3 @@ def load_hooks() -> Hooks:
         hooks.load(provider)
     return hooks
 
-
-def _own(value: Any) -> Any:
-    return copy.deepcopy(value) if isinstance(value, Mapping) else value

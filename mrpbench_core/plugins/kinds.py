@@ -10,7 +10,6 @@ GROUPS = {
     "task_source": "mrpbench.task_sources",
     "assigner": "mrpbench.assigners",
     "planner": "mrpbench.planners",
-    "plan_filter": "mrpbench.plan_filters",
     "dispatcher": "mrpbench.dispatchers",
     "navigator": "mrpbench.navigators",
     "controller": "mrpbench.controllers",

@@ -60,6 +60,13 @@ def origin(cls: type[Component], folder: Path | None = None) -> dict[str, Any]:
     return found
 
 
+def title(component: Component) -> str:
+    """Kind, name and origin of a component, e.g. `planner 'cbs' of mrpbench-standard 0.1`."""
+    found = origin(type(component))
+    owner = f" of {found['distribution']} {found['version']}" if "distribution" in found else ""
+    return f"{found['kind']} '{found['name']}'{owner}"
+
+
 def is_of_others(component: Component) -> bool:
     """Tell whether a component is not of this project."""
     provider = Registry(kind_class(type(component))).provider_of(type(component))

@@ -16,6 +16,17 @@ class RunPaths:
     picture: Path | None = None
 
     @property
+    def instances(self) -> Path:
+        """Folder with the instance of the run."""
+        return instances_of(self.recording)
+
+    @property
     def partial(self) -> Path:
         """The unfinished recording."""
         return self.recording.with_name(f".{self.recording.name}.partial")
+
+
+def instances_of(recording: Path) -> Path:
+    """The folder of instances that belongs to a recording: beside `recordings/`, or beside a recording elsewhere."""
+    folder = recording.absolute().parent
+    return (folder.parent if folder.name == "recordings" else folder) / "instances"

@@ -3,12 +3,12 @@
 import json
 import zipfile
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property, partial
 from io import BytesIO
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import attrs
 import numpy as np
@@ -20,12 +20,20 @@ from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.files.npz import read_array, read_entry
 from mrpbench_core.files.output import create_file
+from mrpbench_core.model.common.arrays import Int, Int32
+from mrpbench_core.model.execution.movers import Mover
+from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.planning.plan import Paths, Plan, PlanResult
+from mrpbench_core.model.runs.instance import Instance
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.routes import RouteHistory
+from mrpbench_core.model.runs.routing import PlanFilter, ends_of
 from mrpbench_core.model.runs.run import RunContext
+from mrpbench_core.store.instances import InstanceFolder
+from mrpbench_core.store.paths import instances_of
 
-FORMAT = 1
-"""Raised when a reader of the old format would misread the new one."""
+FORMAT, INLINE = 2, 1
+"""Formats of recordings that name an instance, and of those that hold everything: of other fleets, and older ones."""
 RATIO = 200
 """Largest size of a recording in memory, as a multiple of its file. Robots that stand are compressed most."""
 UNBOUNDED = 256 * 2**20
@@ -35,10 +43,88 @@ CHANNEL_LIMIT = 4 * 2**30
 _ADVICE = "delete it; `mrpbench run --rerun all` records the run again"
 
 
-class RecordingWriter:
-    """Appends chunks to a file with a temporary name, so that memory does not grow with the run; `close` renames it."""
+@attrs.frozen(kw_only=True)
+class PathArrays:
+    """The paths of a plan as four arrays; see `Paths`."""
 
-    def __init__(self, file: Path, context: RunContext) -> None:
+    first: Int
+    edge: Int32
+    enter: Int
+    leave: Int
+
+    @classmethod
+    def of(cls, paths: Paths) -> Self:
+        """The arrays of these paths."""
+        return cls(first=paths.first, edge=paths.edge, enter=paths.enter, leave=paths.leave)
+
+    @property
+    def plan(self) -> Plan:
+        """The plan, whatever it is worth."""
+        return Plan(paths=Paths(first=self.first, edge=self.edge, enter=self.enter, leave=self.leave))
+
+
+@attrs.frozen(kw_only=True)
+class RecordedRun:
+    """The part of a context that is not its instance: what was planned and claimed, and how it was executed."""
+
+    run_id: str
+    result: PlanResult
+    """Without the plan."""
+    paths: PathArrays | None
+    period: float
+    latency: float
+    goal_tolerance: float
+    plan_filter: PlanFilter
+    movers: tuple[Mover, ...]
+
+    @classmethod
+    def of(cls, context: RunContext) -> Self:
+        """The part of this context."""
+        plan = context.result.plan
+        same = {name: getattr(context, name) for name in ("run_id", *_EXECUTED)}
+        paths = None if plan is None else PathArrays.of(Paths.of(plan.paths))
+        return cls(result=attrs.evolve(context.result, plan=None), paths=paths, **same)
+
+    @property
+    def claimed(self) -> PlanResult:
+        """What the planner returned."""
+        return attrs.evolve(self.result, plan=None if self.paths is None else self.paths.plan)
+
+    def context(self, instance: Instance) -> RunContext:
+        """The whole context. The plan is valid for the problem of the instance."""
+        result = self.claimed
+        assigned = instance.tasks_of(result.plan)
+        routes: Sequence[Route] = ()
+        if result.plan is not None:
+            routes = instance.router(assigned, self.plan_filter)(result.plan)
+        return RunContext(
+            run_id=self.run_id,
+            world=instance.world,
+            fleet=instance.fleet,
+            scenario=instance.scenario,
+            problem=instance.problem,
+            result=result,
+            routes=tuple(routes),
+            goal=ends_of(routes),
+            assigned=assigned,
+            planner_assigns=instance.assigned is None,
+            **{name: getattr(self, name) for name in _EXECUTED},
+        )
+
+
+_EXECUTED = ("period", "latency", "goal_tolerance", "plan_filter", "movers")
+
+
+class RecordingWriter:
+    """Appends chunks to a file with a temporary name, so that memory does not grow with the run; `close` renames it.
+
+    Args:
+        file: of the recording.
+        context: of the run.
+        instance: name of the run's instance in `instances/`; None: the recording holds all of it.
+    """
+
+    def __init__(self, file: Path, context: RunContext, instance: str | None = None) -> None:
         self.file = file
         self.temporary = file.with_name(f".{file.name}.partial")
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -46,8 +132,11 @@ class RecordingWriter:
         self._zip = zipfile.ZipFile(self._stream, "w")
         self._chunks = 0
         self._arrays = 0
-        data = encode(context, self._keep)
-        self._put("context.json", json.dumps({"format": FORMAT, "context": data}).encode())
+        if instance is None:
+            header: dict[str, Any] = {"format": INLINE, "context": encode(context, self._keep)}
+        else:
+            header = {"format": FORMAT, "instance": instance, "context": encode(RecordedRun.of(context), self._keep)}
+        self._put("context.json", json.dumps(header).encode())
 
     def _keep(self, array: NDArray[Any]) -> str:
         name = f"context/{self._arrays}.npy"
@@ -91,10 +180,17 @@ class Recording:
     any method. Nothing is decompressed beyond the size that the file declares, which is bounded.
     """
 
-    def __init__(self, file: Path) -> None:
+    def __init__(self, file: Path, instances: InstanceFolder | None = None) -> None:
+        """Open a file.
+
+        Args:
+            file: of the recording.
+            instances: of its results folder; None: see `mrpbench_core.store.paths.instances_of`.
+        """
         if not file.is_file():
             raise InputError("no recording here", file=file, hint="the run kept none, or was not executed")
         self.file = file
+        self._instances = instances or InstanceFolder(instances_of(file))
         with self._naming("is not a recording"):
             self._zip = zipfile.ZipFile(file)
         try:
@@ -102,7 +198,8 @@ class Recording:
             with self._naming("is not a recording"):
                 header = json.loads(self._read("context.json"))
                 self._context, found = header["context"], header["format"]
-            if found != FORMAT:
+                self.instance_name: str | None = header["instance"] if found == FORMAT else None
+            if found not in (FORMAT, INLINE):
                 raise InputError(f"recording of format {found!r:.40}, this version reads {FORMAT}", file=file)
             parts: dict[str, list[str]] = defaultdict(list)
             for name in sorted(set(self._zip.namelist())):
@@ -157,12 +254,31 @@ class Recording:
 
     @cached_property
     def _first_context(self) -> RunContext:
+        if self.instance_name is None:
+            with self._naming("is damaged: its context"):
+                context = decode(self._context, RunContext, self._load)
+        else:
+            recorded, instance = self.recorded_run(), self.instance()
+            with self._naming("is damaged: its plan"):
+                context = recorded.context(instance)
         with self._naming("is damaged: its context"):
-            context = decode(self._context, RunContext, self._load)
             fault = check_context(context)
         if fault is not None:
             raise self._fault(f"its context: {fault}")
         return context
+
+    def recorded_run(self) -> RecordedRun:
+        """What was planned and claimed."""
+        if self.instance_name is None:
+            return RecordedRun.of(self.first_context())
+        with self._naming("is damaged: its plan"):
+            return decode(self._context, RecordedRun, self._load)
+
+    def instance(self) -> Instance:
+        """What the run is about."""
+        if self.instance_name is None:
+            return self.first_context().instance
+        return self._instances.read(str(self.instance_name))
 
     def context(self) -> RunContext:
         """The context with the routes of the last plan, to which `reached` and `cleared` refer."""

@@ -34,7 +34,6 @@ from mrpbench_core.testing.suites.importer import ImporterConformance
 from mrpbench_core.testing.suites.localizer import LocalizerConformance
 from mrpbench_core.testing.suites.metric import MetricConformance
 from mrpbench_core.testing.suites.navigator import NavigatorConformance
-from mrpbench_core.testing.suites.plan_filter import PlanFilterConformance
 from mrpbench_core.testing.suites.planner import PlannerConformance
 from mrpbench_core.testing.suites.recovery import RecoveryConformance
 from mrpbench_core.testing.suites.roadmap import RoadmapConformance
@@ -60,7 +59,6 @@ __all__ = [
     "LocalizerConformance",
     "MetricConformance",
     "NavigatorConformance",
-    "PlanFilterConformance",
     "PlannerConformance",
     "RecoveryConformance",
     "RoadmapConformance",

@@ -82,13 +82,13 @@ def test_a_new_distribution_is_found_checked_tested_and_gone_when_uninstalled(fo
 
 
 def test_what_to_do_next_is_printed(mrpbench):
-    code, out, _ = mrpbench("new-plugin", "plan_filter", "acme-first")
+    code, out, _ = mrpbench("new-plugin", "task_source", "acme-first")
     assert code == 0
     assert out.splitlines() == [
-        "wrote mrpbench-plan-filters-acme-first: a working plan filter. Next:",
-        "  cd mrpbench-plan-filters-acme-first",
+        "wrote mrpbench-task-sources-acme-first: a working task source. Next:",
+        "  cd mrpbench-task-sources-acme-first",
         "  pip install -e .",
-        "  mrpbench check plan_filter:acme_first",
+        "  mrpbench check task_source:acme_first",
     ]
 
 

@@ -8,7 +8,7 @@ from mrpbench_core.builtin.assigners.insertion import Insertion
 from mrpbench_core.builtin.task_sources.listed import ListedStream
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.visits import Visits
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording

@@ -8,7 +8,7 @@ import pytest
 
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.observers import Observers
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.scenario import write_scenario
 from mrpbench_core.model.planning.scenario import Scenario, Task

@@ -58,7 +58,7 @@ class ControllerServer:
         """Tell bool[k] which commands are missing."""
         subject = f"the controller {self._name}"
         if not isinstance(command, np.ndarray) or command.shape != (len(robots), 2):
-            raise BrokenContractError(f"{subject} returned {command!r} instead of f8[{len(robots)},2]")
+            raise BrokenContractError(f"{subject} returned {command!r} instead of f8[{len(robots)},2]", "controller")
         finite = np.isfinite(command)
         missing: Bool = np.zeros(len(robots), bool)
         if np.count_nonzero(finite) < command.size:
@@ -66,5 +66,5 @@ class ControllerServer:
             wrong = ~finite.all(axis=1) & ~missing
             if wrong.any():
                 row = int(wrong.argmax())
-                raise BrokenContractError(f"{subject} returned {command[row].tolist()} for robot {robots[row]}")
+                raise BrokenContractError(f"{subject} returned {command[row].tolist()} for robot {robots[row]}", "controller")
         return missing

@@ -20,7 +20,7 @@ from mrpbench_core.engine.analysis.observed_run import ObservedRun, Sampling, ob
 from mrpbench_core.engine.loading.versions import with_versions
 from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.engine.record import RunError, RunRecord, StoredRecord
-from mrpbench_core.engine.stages.measure import describe, measure
+from mrpbench_core.referee.measuring import describe, measure
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.jsonl import Writer, line
 from mrpbench_core.files.links import followed

@@ -13,7 +13,6 @@ from mrpbench_core.checking.recording import LARGEST
 from mrpbench_core.engine.execution.blockages import Blockages
 from mrpbench_core.engine.execution.faults import FaultEvent
 from mrpbench_core.engine.execution.gait import Gait
-from mrpbench_core.engine.own import own, own_returned
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.model.common.arrays import Float, Int16, Int32
 from mrpbench_core.model.common.fleet import Fleet
@@ -76,13 +75,13 @@ class Crowds:
     def _start(self, crowds: Sequence[Crowd], world: World, fleet: Fleet, seeds: tuple[int, int], state: State) -> None:
         """Start the sessions in turn; each sees the robots and the members of those before."""
         for index, crowd in enumerate(crowds):
-            seen = CrowdView(state=own(state), others=own(self.movers), radius=self._radius.copy())
-            self._add(crowd.start(own(world), own(fleet), seed_of(*seeds, f"crowd {index}"), seen))
+            seen = CrowdView(state=state, others=self.movers, radius=self._radius)
+            self._add(crowd.start(world, fleet, seed_of(*seeds, f"crowd {index}"), seen))
 
     def _add(self, session: CrowdSession) -> None:
         if not isinstance(session, CrowdSession):
             _refuse(f"{type(session).__name__} instead of a session")
-        members = own_returned(tuple(session.members), "a crowd")
+        members = tuple(session.members)
         for member in members:
             if not _exists(member):
                 _refuse(f"the member {member!r:.80}")
@@ -103,7 +102,7 @@ class Crowds:
             before = self.movers
             rest = np.r_[0:first, last : len(self.members)]
             others = Movers(pose=before.pose[rest], velocity=before.velocity[rest], level=before.level[rest])
-            seen = CrowdView(state=own(state), others=others, radius=self._radius[rest])
+            seen = CrowdView(state=state, others=others, radius=self._radius[rest])
             parts[index] = self._sessions[index].step(self._period, seen)
             self.movers = self._joined(parts)
         if (_arrivals(self.movers) < _arrivals(begin)).any():
@@ -126,7 +125,7 @@ class Crowds:
             names = session.wanted_doors()
             if not isinstance(names, Set):
                 _refuse(f"{type(names).__name__} instead of a set of doors")
-            wanted |= own_returned(frozenset(names), "a crowd")
+            wanted |= names
         if wanted - self._doors:
             _refuse(f"doors that the world does not have: {', '.join(sorted(map(str, wanted - self._doors)))}")
         self._opened |= wanted
@@ -146,10 +145,9 @@ class Crowds:
         return attrs.evolve(inputs, movers=bodies, mover_level=level, seen=seen)
 
     def _joined(self, given: Sequence[Movers]) -> Movers:
-        parts = [own_returned(part, "a crowd") for part in given]
-        for part, (first, last) in zip(parts, pairwise(self._first), strict=True):
+        for part, (first, last) in zip(given, pairwise(self._first), strict=True):
             size = int(last - first)
-            if type(part) is not Movers:
+            if not isinstance(part, Movers):
                 _refuse(f"{type(part).__name__} instead of Movers")
             if not len(part.pose) == len(part.velocity) == len(part.level) == size:
                 _refuse(f"{len(part.pose)} movers instead of {size}")
@@ -159,19 +157,19 @@ class Crowds:
                 _refuse("arrivals that are not one number from -1 on for each mover")
             if size and not (part.level.min() >= -1 and part.level.max() < self._levels):
                 _refuse("a level that the world does not have")
-        if not parts:
+        if not given:
             return Movers(pose=np.empty((0, 3)), velocity=np.empty((0, 2)), level=np.empty(0, np.int16))
         return Movers(
-            pose=np.concatenate([part.pose for part in parts]),
-            velocity=np.concatenate([part.velocity for part in parts]),
-            level=np.concatenate([part.level for part in parts]),
-            arrivals=np.concatenate([_arrivals(part) for part in parts]),
+            pose=np.concatenate([part.pose for part in given]),
+            velocity=np.concatenate([part.velocity for part in given]),
+            level=np.concatenate([part.level for part in given]),
+            arrivals=np.concatenate([_arrivals(part) for part in given]),
         )
 
 
 def _exists(member: Any) -> bool:
     """Tell whether something is a mover, and can be one."""
-    if type(member) is not Mover:
+    if not isinstance(member, Mover):
         return False
     kind: Any = member.kind
     try:
@@ -198,4 +196,4 @@ def _at_rest(world: World, poses: Float, levels: Int16) -> State:
 
 
 def _refuse(what: str) -> NoReturn:
-    raise BrokenContractError(f"a crowd returned {what}")
+    raise BrokenContractError(f"a crowd returned {what}", "crowds")

@@ -23,7 +23,6 @@ from mrpbench_core.engine.execution.recorder import Sample
 from mrpbench_core.engine.execution.replanning import Revision
 from mrpbench_core.engine.execution.standstill import Standstill
 from mrpbench_core.engine.execution.visits import Visits
-from mrpbench_core.engine.own import own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.model.common.arrays import Bool
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
@@ -50,10 +49,9 @@ class ExecutionLoop:
 
     def __init__(self, inputs: LoopInputs) -> None:
         self._inputs = inputs
-        context, given, components = inputs.context, inputs.handed.given, inputs.components
+        context, components = inputs.context, inputs.components
         plan = context.result.plan
         assert plan is not None
-        assert given.result.plan is not None
         robots = len(context.fleet)
         self._last_start = float(inputs.noise.start_delay.max(initial=0.0))
         """Simulated second from which on all robots may drive."""
@@ -75,31 +73,28 @@ class ExecutionLoop:
         self._checks.state(attrs.evolve(inputs.simulation.state, pose=inputs.placed))
         self._state: State = self._checks.state(inputs.simulation.state)
         dispatcher, localizer, navigator = components.dispatcher, components.localizer, components.navigator
-        dispatching = dispatcher.start(given.problem, given.result.plan)
+        dispatching = dispatcher.start(context.problem, plan)
         self._dispatcher = check_returned(dispatcher, dispatching, DispatcherSession)
-        inputs.handed.check(dispatcher)
-        placed, seed = self._state.pose.copy(), seed_of(*inputs.seeds, "localizer")
-        localizing = localizer.start(given.fleet, given.world, placed, seed)
+        seed = seed_of(*inputs.seeds, "localizer")
+        localizing = localizer.start(context.fleet, context.world, self._state.pose, seed)
         self._localizer = check_returned(localizer, localizing, LocalizerSession)
-        inputs.handed.check(localizer)
         navigating = navigator.start(
-            given.fleet,
-            given.world,
-            given.routes,
+            context.fleet,
+            context.world,
+            context.routes,
             observed(components.controller, inputs.evaluations) if inputs.evaluations else components.controller,
             context.period,
             seed_of(*inputs.seeds, "navigator"),
         )
         self._navigator = check_returned(navigator, navigating, NavigatorSession)
-        inputs.handed.check(navigator, components.controller)
         self._facility_manager = FacilityManager(context.world, context.problem, plan)
         self._arrivals = Arrivals(context.routes, inputs.goal_tolerance)
         sets = Feature.GOAL_SETS in inputs.replanner.supports
         self._visits = Visits(context.problem, plan, inputs.goal_tolerance)
         self._reactions = Reactions(inputs.faults, robots, inputs.replanner.yaw, sets)
         self._standstill = Standstill(_patience(inputs), len(inputs.replanner.problem))
-        self._shown_routes = self._shown(context.routes)
-        self._returned = self._orders = self._given_orders = Orders(released=np.zeros(robots, "i4"))
+        self._routes: Sequence[Route] = context.routes
+        self._returned = self._orders = Orders(released=np.zeros(robots, "i4"))
         self._motion = Motion(
             twist=np.zeros((robots, 2)),
             reached=np.zeros(robots, "i4"),
@@ -113,7 +108,7 @@ class ExecutionLoop:
             self._inputs.recorder.events(self._inputs.faults.update(self._now))
             observation = self._sense()
             self._dispatch(observation)
-            self._drive()
+            self._drive(observation)
             result = self._result()
             self._record(observation, last=result is not None)
             if result is not None:
@@ -126,10 +121,8 @@ class ExecutionLoop:
         inputs, state = self._inputs, self._state
         odometry = inputs.noise.odometry(state)
         scans = inputs.faults.scans(inputs.noise.scans(self._checks.scans(inputs.simulation.scans(), self._now)))
-        truth = state.pose.copy() if inputs.components.needs_truth else None
-        measured, seen = own(odometry), own(scans)
-        estimate = self._checks.estimate(self._localizer.update(self._now, measured, seen, truth))
-        self._given = FleetObservation(estimate=own(estimate), odometry=measured, level=own(state.level), scans=seen)
+        truth = state.pose if inputs.components.needs_truth else None
+        estimate = self._checks.estimate(self._localizer.update(self._now, odometry, scans, truth))
         return FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
 
     def _dispatch(self, observation: FleetObservation) -> None:
@@ -177,18 +170,17 @@ class ExecutionLoop:
 
     def _ask_dispatcher(self, view: FleetView) -> None:
         """Get new orders; a dispatcher that has none returns the same object again."""
-        returned = self._dispatcher.update(self._now, own(view))
+        returned = self._dispatcher.update(self._now, view)
         if returned is not self._returned:
             self._returned = returned
             self._orders = self._checks.orders(returned)
-            self._given_orders = own(self._orders)
 
     def _adopt(self, new: Revision) -> bool:
         """Put a new plan in force; tell whether there is one and the dispatcher accepts it."""
         now, fault = self._now, new.fault
         if new.plan is not None and not fault:
             try:
-                self._dispatcher.adopt(own(new.problem), own(new.plan), new.cut.copy())
+                self._dispatcher.adopt(new.problem, new.plan, new.cut)
             except DispatchError as error:
                 fault = str(error)
             else:
@@ -196,8 +188,8 @@ class ExecutionLoop:
                 self._driven.cut(new.cut)
                 self._motion = shifted(self._motion, new.cut)
                 self._arrivals.adopt(new.routes, new.cut, new.leads)
-                self._shown_routes = self._shown(new.routes)
-                self._navigator.adopt(own(new.routes), new.cut.copy())
+                self._routes = new.routes
+                self._navigator.adopt(new.routes, new.cut)
                 self._inputs.replanner.use(new.problem, new.plan)
                 self._checks.adopt(Paths.of(new.plan.paths).size, new.cut)
                 self._reactions.adopt()
@@ -216,14 +208,14 @@ class ExecutionLoop:
         self._inputs.recorder.events((Event(stamp=now, kind="replan_failed", detail=f"{new.reason}; {fault}"),))
         return False
 
-    def _drive(self) -> None:
+    def _drive(self, observation: FleetObservation) -> None:
         """Command the robots; nothing is released to a robot that has not started yet."""
-        orders, delay = self._given_orders, self._inputs.noise.start_delay
+        orders, delay = self._orders, self._inputs.noise.start_delay
         if self._now < self._last_start:
             orders = attrs.evolve(orders, released=np.where(self._now < delay, 0, orders.released))
         if self._inputs.faults:
             orders = attrs.evolve(orders, released=self._inputs.faults.received(orders.released))
-        self._motion = self._checks.motion(self._navigator.step(self._now, self._given, orders))
+        self._motion = self._checks.motion(self._navigator.step(self._now, observation, orders))
         for event in self._motion.events:
             if event.kind == "aborted":
                 self._causes[event.robot] = event.detail
@@ -330,12 +322,10 @@ class ExecutionLoop:
                 movers=inputs.crowds.movers if inputs.crowds.members else None,
             )
             recorder.sample(self._step, sample, last)
-        if inputs.stepped is not None:
-            inputs.stepped(now=now, state=own(state), observation=self._given, routes=self._shown_routes)
-
-    def _shown(self, routes: Sequence[Route]) -> Sequence[Route]:
-        """A copy of the routes for hooks, if there are any."""
-        return () if self._inputs.stepped is None else own(routes)
+        if inputs.hooks.has("mrpbench_stepped"):
+            inputs.hooks.call(
+                "mrpbench_stepped", now=now, state=state, observation=observation, routes=self._routes
+            )
 
     def _simulate(self) -> None:
         """Let one control period pass."""

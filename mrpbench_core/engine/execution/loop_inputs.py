@@ -1,7 +1,7 @@
 """The components and inputs of the execution loop, and its result."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, Self
+from typing import Self
 
 import attrs
 import numpy as np
@@ -21,10 +21,10 @@ from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.replanning import Replanner
 from mrpbench_core.engine.execution.task_manager import TaskManager
-from mrpbench_core.engine.own import Handed
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.plugins.contract import is_of
+from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.plugins.provenance import origin
 
 GROUND_TRUTH = "mrpbench_core.builtin.localizers.ground_truth"
@@ -98,8 +98,6 @@ class LoopInputs:
 
     context: RunContext
     """World, fleet, problem, plan and routes."""
-    handed: Handed[RunContext]
-    """A copy of it for components, which none of them may change."""
     components: LoopComponents
     crowds: Crowds
     """The people and other movers."""
@@ -127,7 +125,7 @@ class LoopInputs:
     """Metres from its goal within which a robot has arrived."""
     seeds: tuple[int, int]
     """Seed and repeat of the run."""
-    stepped: Callable[..., Any] | None
+    hooks: Hooks
     """Called after every control period; see `mrpbench_core.api.hooks`."""
     progress: Callable[[float, NDArray[np.bool_]], None] = lambda now, arrived: None  # noqa: ARG005
     """Called in every control period with the simulated seconds and whether each robot has arrived."""

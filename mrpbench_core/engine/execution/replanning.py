@@ -10,7 +10,7 @@ from mrpbench_core.config.settings import Replanning, RunConfig
 from mrpbench_core.engine.execution.commitments import commitments, not_ahead, remaining
 from mrpbench_core.engine.execution.cutting import driven, without
 from mrpbench_core.engine.execution.destinations import Destinations
-from mrpbench_core.engine.execution.routes import Router
+from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.execution.route import Route
@@ -73,7 +73,7 @@ class Replanner:
         reads_remaining: bool = False,
     ) -> None:
         self.supports, self.yaw = supports, router.final_yaw
-        self._cuts = Feature.SINCE in supports and router.plan_filter is None  # which may shift waypoints anywhere
+        self._cuts = Feature.SINCE in supports and router.plan_filter == "none"  # which may shift waypoints anywhere
         self._reads_remaining = reads_remaining
         self._settings = settings
         self._ask = ask
@@ -165,7 +165,7 @@ class Replanner:
             fault=fault or "",
             leads=leads,
             cut=cut,
-            kept=np.zeros_like(cut) if router.plan_filter is not None else view.reached - cut,
+            kept=np.zeros_like(cut) if router.plan_filter != "none" else view.reached - cut,
             destinations=to,
         )
 

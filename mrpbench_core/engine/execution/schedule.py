@@ -5,7 +5,6 @@ import numpy as np
 from mrpbench_core.api.dispatcher import Dispatcher, DispatcherSession, RepeatedSession
 from mrpbench_core.engine.contract_checks import ContractChecks, check_returned
 from mrpbench_core.engine.execution.scheduled_paths import ScheduledPaths
-from mrpbench_core.engine.own import own
 from mrpbench_core.model.runs.run import RunContext
 
 
@@ -43,5 +42,5 @@ class Schedule:
         return ContractChecks(np.array([len(path) for path in self.plan.paths], np.int64))
 
     def _start(self) -> DispatcherSession:
-        started = self._dispatcher.start(own(self.context.problem), own(self.plan))
+        started = self._dispatcher.start(self.context.problem, self.plan)
         return check_returned(self._dispatcher, started, DispatcherSession)

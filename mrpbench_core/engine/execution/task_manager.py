@@ -25,7 +25,6 @@ from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.engine.execution.queue_problems import QueueProblems
 from mrpbench_core.engine.execution.reactions import reaches
 from mrpbench_core.engine.execution.task_board import Job, TaskBoard, TaskEvent
-from mrpbench_core.engine.own import Handed, name_of, own_returned
 from mrpbench_core.model.common.arrays import Bool, Int
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.scenario import Task
@@ -132,11 +131,12 @@ class TaskManager:
         if task.index != self._next or not task.release <= now:
             raise BrokenContractError(
                 f"the task source gave task {task.index}, released at {task.release:g} s, as number {self._next} at "
-                f"{now:g} s"
+                f"{now:g} s",
+                "tasks",
             )
         self._next += 1
         if (fault := task_fault(task)) is not None:
-            raise BrokenContractError(f"the task source gave task {task.index}, which {fault}")
+            raise BrokenContractError(f"the task source gave task {task.index}, which {fault}", "tasks")
         located = self._roadmap.locate(task.goals[:, :2], task.levels).tolist()
         places = zip(located, task.goals[:, 2].tolist(), strict=True)
         yaws = tuple({it: yaw for it, yaw in goal if it >= 0} for goal in task.by_errand([*places]))
@@ -196,17 +196,15 @@ class TaskManager:
         if not open_tasks:
             return
         problem = self._queue_problems.of(now, self._board, open_tasks, self._head, self._aborted)
-        handed = Handed(problem, "the tasks")
         began = time.perf_counter()
         try:
-            queues = own_returned(self._assigner.assign_queues(handed.given), "the assigner")
+            queues = self._assigner.assign_queues(problem)
         except AssignmentError:
             return
         finally:
             self.assignment_s.append(time.perf_counter() - began)
-        handed.check(self._assigner)
         if fault := check_queues(problem, queues):
-            raise BrokenContractError(f"{name_of(self._assigner)} {fault}")
+            raise BrokenContractError(f"the assigner {fault}", "assigner")
         self._board.assign(now, tuple(tuple(open_tasks[int(task)] for task in queue) for queue in queues))
 
     def reason(self, now: float) -> str | None:

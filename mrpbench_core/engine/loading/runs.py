@@ -9,8 +9,9 @@ import attrs
 
 from mrpbench_core.config.shared import Shared
 from mrpbench_core.config.study import RunData, RunPoint, Study, load_study
+from mrpbench_core.engine.asking import facts_of_run
 from mrpbench_core.engine.loading.versions import code_of
-from mrpbench_core.engine.stages.measure import describe
+from mrpbench_core.referee.measuring import describe
 from mrpbench_core.files.errors import InputError
 
 
@@ -20,6 +21,8 @@ class StudyRun(RunData):
 
     code: dict[str, Any] = attrs.field(repr=False)
     """Its components and their versions; the same object for runs with the same ones."""
+    facts: dict[str, Any] = attrs.field(repr=False)
+    """See `mrpbench_core.engine.asking.facts_of_run`."""
     live: bool
     """Something outside of the process takes part."""
     wall_s: float
@@ -37,7 +40,7 @@ class StudyRuns:
     notes: tuple[str, ...] = ()
     """What the configuration names without effect in any run, one line each."""
     columns: dict[str, Any] = attrs.field(factory=dict)
-    """The declaration of each metric column; see `mrpbench_core.engine.stages.measure.describe`."""
+    """The declaration of each metric column; see `mrpbench_core.referee.measuring.describe`."""
 
 
 def packed_study(source: str | Mapping[str, Any], overrides: Sequence[str]) -> dict[str, Any]:
@@ -89,6 +92,7 @@ def _packed(point: RunPoint, values: _Values) -> list[Any]:
         point.axes,
         values(point.sources),
         values(code_of(point.components, point.folder)),
+        values(facts_of_run(point.config)),
         any(component.live for component in point.components),
         limits.wall,
         limits.memory,
@@ -113,11 +117,12 @@ def unpack_study(study: dict[str, Any]) -> StudyRuns:
                 folder=folder,
                 sources=values[sources],
                 code=values[code],
+                facts=values[facts],
                 live=live,
                 wall_s=wall_s,
                 memory_bytes=memory_bytes,
             )
-            for run_id, canonical, axes, sources, code, live, wall_s, memory_bytes in study["runs"]
+            for run_id, canonical, axes, sources, code, facts, live, wall_s, memory_bytes in study["runs"]
         ),
     )
 

@@ -14,20 +14,20 @@ import sys
 import traceback
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
-from typing import Any, NoReturn, Self, cast
+from typing import Any, NoReturn, Self
 
 import numpy as np
 
-from mrpbench_core.config.unpacking import Unpack, Unpacking, unpack
+from mrpbench_core.config.unpacking import Unpacking
 from mrpbench_core.engine.processes.channel import Channel, ClosedError, GarbledError, new_key
 from mrpbench_core.engine.processes.output import flush, redirect
 from mrpbench_core.engine.processes.process_tree import end_with_parent
 from mrpbench_core.engine.processes.warm_up import warm_up
-from mrpbench_core.engine.stages.prepare import prepare
-from mrpbench_core.plugins.hooks import Hooks, load_hooks
+from mrpbench_core.engine.processes.steps import State
+from mrpbench_core.plugins.hooks import load_hooks
 from mrpbench_core.plugins.importing import tell_imports
 
-Execute = Callable[[socket.socket, Hooks, Unpack, Callable[[], None]], None]
+Execute = Callable[[socket.socket, State, Callable[[], None]], None]
 """Receives a job from a connection, executes it, calls its last argument and answers."""
 _NAMES = 1 << 15
 """Bytes of module names, less than a pipe holds."""
@@ -101,18 +101,18 @@ def _serve(connection: socket.socket, channel: Channel, job: Mapping[str, Any], 
         signal.signal(number, signal.SIG_DFL)
     os.setsid()  # Ctrl-C reaches the invoker only
     tell_imports(lambda plugin: channel.send({"importing": plugin}))
-    hooks, unpacking = Hooks(), cast("Unpack", unpack)
-    if "parcel" in job:
+    state = State()
+    if "step" in job:
         warm_up()
-        hooks = load_hooks()
+    if job.get("step") == "drive":
+        state.hooks = load_hooks()
         with suppress(Exception):  # the run reports it
-            unpacking = first = Unpacking(job["parcel"])
-            prepare(first.config)
+            state.unpack = Unpacking(job["parcel"])
     flush()
     server = os.getpid()
     while True:
-        state = np.frombuffer(os.urandom(4 * 624), np.uint32)
-        np.random.set_state(("MT19937", state, 624, 0, 0.0))  # noqa: NPY002 - other random numbers for plugins in each process
+        words = np.frombuffer(os.urandom(4 * 624), np.uint32)
+        np.random.set_state(("MT19937", words, 624, 0, 0.0))  # noqa: NPY002 - other random numbers for plugins in each process
         gc.freeze()  # collections in the forked processes then leave the shared memory alone
         _, descriptors, _, _ = socket.recv_fds(connection, 1, 1)
         if not descriptors:  # the supervisor closed its end
@@ -125,7 +125,7 @@ def _serve(connection: socket.socket, channel: Channel, job: Mapping[str, Any], 
             os.close(imported)
             os.set_inheritable(writer, False)
             tell = functools.partial(_tell, writer, len(sys.modules))
-            execute(socket.socket(fileno=descriptors[0]), hooks, unpacking, tell)
+            execute(socket.socket(fileno=descriptors[0]), state, tell)
             os._exit(0)
         os.close(descriptors[0])
         os.close(writer)

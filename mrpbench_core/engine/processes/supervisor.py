@@ -5,14 +5,13 @@ It executes one job after another, each in a fresh process, and never a plugin. 
 leaves behind, and kills the whole tree when the job ends, when it exceeds a limit, and when the invoker ends.
 """
 
-import json
 import os
 import signal
 import socket
 import sys
 import tempfile
 from collections import OrderedDict
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -21,11 +20,12 @@ from mrpbench_core.engine.processes.fork_server import ForkServer
 from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.engine.processes.output import cut, remove_empty
 from mrpbench_core.engine.processes.process_tree import become_subreaper, kill_descendants
+from mrpbench_core.engine.processes.run_steps import run_in_steps
 from mrpbench_core.engine.processes.supervision import Supervision
 from mrpbench_core.engine.processes.worker import execute_job
 from mrpbench_core.files.removal import remove_tree
 
-SERVERS = 4
+SERVERS = 5
 """Fork servers that are kept, the most recently used ones."""
 
 
@@ -73,39 +73,24 @@ class Supervisor:
                 remove_tree(temporary, ignore_errors=True)
 
     def _execute(self, job: dict[str, Any], log: Path) -> dict[str, Any]:
-        plugins, server = self._server(job)
-        pids = {server.pid for server in self._servers.values()}
-        answer, serves = Supervision(job, self._invoker, server, pids).run()
-        if not serves:
-            del self._servers[plugins]
+        answer = self._ask(job, "") if "call" in job else run_in_steps(job, self._ask)
         cut(log)
         remove_empty(log)
         return answer
 
-    def _server(self, job: Mapping[str, Any]) -> tuple[str, ForkServer]:
-        """The fork server for the plugins of a job, and the key under which it is kept."""
-        parcel = job.get("parcel", {})
-        sources = parcel.get("sources")
-        plugins = json.dumps([sorted(set(_plugins(parcel))), sources, parcel.get("folder") if sources else None])
+    def _ask(self, job: Mapping[str, Any], plugins: str) -> dict[str, Any]:
+        """Let a process do a job that the fork server of these plugins forks."""
         if plugins not in self._servers:
             while len(self._servers) >= SERVERS:
                 self._servers.popitem(last=False)[1].wait()
             inherited = [self._connection, *(server.connection for server in self._servers.values())]
             self._servers[plugins] = ForkServer.start(job, execute_job, inherited)
         self._servers.move_to_end(plugins)
-        return plugins, self._servers[plugins]
-
-
-def _plugins(value: Any) -> Iterator[str]:
-    """The names of all plugins in a configuration as plain data."""
-    if isinstance(value, dict):  # of JSON; an abstract class would take twice as long, for every run
-        if isinstance(value.get("plugin"), str):
-            yield value["plugin"]
-        for inner in value.values():
-            yield from _plugins(inner)
-    elif isinstance(value, list):
-        for inner in value:
-            yield from _plugins(inner)
+        pids = {server.pid for server in self._servers.values()}
+        answer, serves = Supervision(job, self._invoker, self._servers[plugins], pids).run()
+        if not serves:
+            del self._servers[plugins]
+        return answer
 
 
 def main(descriptor: int, folder: str) -> None:

@@ -14,7 +14,7 @@ from mrpbench_core.api.planner import Planner
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.structure import Structure
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.model.planning.plan import Budget, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.planning.plan import Path as RobotPath
 from mrpbench_core.model.planning.problem import Problem
@@ -67,5 +67,5 @@ def warm_up() -> None:
         paths = RunPaths(recording=Path(folder, "recording.zip"), exports=Path(folder, "exports"))
         for _ in range(TIMES):
             config = Structure(Path(folder)).run(from_data(_RUN, Location()))
-            record = execute(config, "0", paths, lambda stage, facts: None)  # noqa: ARG005
+            record = execute(config, "0", paths)
             record.message()

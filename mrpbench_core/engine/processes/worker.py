@@ -10,7 +10,6 @@ import os
 import resource
 import socket
 import tempfile
-import time
 import traceback
 from collections.abc import Callable
 from pathlib import Path
@@ -18,25 +17,22 @@ from typing import Any
 
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.config.unpacking import Unpack
+from mrpbench_core.engine.blame import broken, owner_of
 from mrpbench_core.engine.json_values import jsonable
 from mrpbench_core.engine.loading.runs import pack_error
-from mrpbench_core.engine.observers import Observers
-from mrpbench_core.engine.origins import owner_of, title, with_origin
-from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.engine.processes.channel import KEY_BYTES, Channel
 from mrpbench_core.engine.processes.output import append_to, flush
 from mrpbench_core.engine.processes.process_tree import address_space, prefer_to_end
+from mrpbench_core.engine.processes.steps import STEPS, State
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.files.printing import printable
-from mrpbench_core.model.runs.status import RunStatus, Stage
-from mrpbench_core.plugins.hooks import Hooks
+from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.plugins.importing import tell_imports
-from mrpbench_core.store.paths import RunPaths
+from mrpbench_core.plugins.provenance import title
 
 
-def execute_job(connection: socket.socket, hooks: Hooks, unpack: Unpack, executed: Callable[[], None]) -> None:
+def execute_job(connection: socket.socket, state: State, executed: Callable[[], None]) -> None:
     """Receive a job, execute it, and send its answer; call `executed` before."""
     connection.set_inheritable(False)  # programs that a plugin starts must not keep it open
     prefer_to_end()
@@ -49,14 +45,14 @@ def execute_job(connection: socket.socket, hooks: Hooks, unpack: Unpack, execute
         if not os.environ.get("MRPBENCH_TRACEBACK"):
             faulthandler.disable()  # its output would be that of the command
         os.chdir(job["folder"])
-        found = _call(job["call"], job["arguments"])
+        answer = _call(job["call"], job["arguments"])
     else:
-        found = _run(job, channel, hooks, unpack)
+        answer = _step(job, channel, state)
     flush()
     executed()
     try:
-        channel.send(found)
-    except (TypeError, ValueError, RecursionError) as error:  # what a plugin declares may be no data
+        channel.send(answer)
+    except (TypeError, ValueError, RecursionError) as error:  # what a plugin declares may not be data
         channel.send({"raised": describe(error)})
 
 
@@ -75,43 +71,24 @@ def _call(function: str, arguments: list[Any]) -> dict[str, Any]:
         return {"raised": describe(error)}
 
 
-def _run(job: dict[str, Any], channel: Channel, hooks: Hooks, unpack: Unpack) -> dict[str, Any]:
-    """Execute a run; return its answer."""
+def _step(job: dict[str, Any], channel: Channel, state: State) -> dict[str, Any]:
+    """Do one step of a run; return its answer."""
     try:
         os.environ["TMPDIR"] = tempfile.tempdir = job["temporary"]
         _backstop(job["memory_bytes"])
-        return _execute(job, channel, hooks, unpack)
+        return _guarded(job, channel, state)
     except OSError as error:
         return {"mistake": f"{job['log']}: {error.strerror}"}
 
 
-def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks, unpack: Unpack) -> dict[str, Any]:
-    def announce(name: Stage, facts: dict[str, Any]) -> None:
-        channel.send({"stage": name, "at": time.monotonic(), **jsonable(facts)})
-
-    paths = RunPaths(
-        recording=Path(job["recording"]),
-        exports=Path(job["exports"]),
-        picture=None if job["picture"] is None else Path(job["picture"]),
-    )
-    observers = Observers(
-        planned=(lambda **seen: hooks.call("mrpbench_planned", **seen)) if hooks.has("mrpbench_planned") else None,
-        executing=(lambda **seen: hooks.call("mrpbench_executing", **seen))
-        if hooks.has("mrpbench_executing")
-        else None,
-        stepped=(lambda **seen: hooks.call("mrpbench_stepped", **seen)) if hooks.has("mrpbench_stepped") else None,
-        executed=lambda: hooks.call("mrpbench_executed"),
-        progress=lambda **facts: channel.send({"progress": facts}),
-    )
-    config = None
+def _guarded(job: dict[str, Any], channel: Channel, state: State) -> dict[str, Any]:
     try:
-        config = unpack(job["parcel"])
-        record = jsonable(execute(config, job["run_id"], paths, announce, observers).message())
+        return STEPS[job["step"]](job, channel, state)
     except (InputError, InputErrors) as error:
         return {"mistake": jsonable(str(error))}
     except BrokenContractError as error:
         _print_exception()
-        return {"status": RunStatus.CONTRACT_BROKEN, "message": printable(_named(str(error), config))}
+        return {"status": RunStatus.CONTRACT_BROKEN, "message": printable(broken(error, state.config))}
     except MemoryError as error:
         _print_exception()
         return {"status": RunStatus.OUT_OF_MEMORY, "message": printable(str(error)) or "no memory left"}
@@ -119,12 +96,7 @@ def _execute(job: dict[str, Any], channel: Channel, hooks: Hooks, unpack: Unpack
         if is_full(error) and not _limits_files():  # the run is to be done again
             return {"mistake": f"{job['recording']}: cannot be written: {jsonable(printable(str(error)))}"}
         _print_exception()
-        return {"status": RunStatus.CRASHED, "message": describe(error, config)}
-    return {"record": record}
-
-
-def _named(message: str, config: RunConfig | None) -> str:
-    return message if config is None else with_origin(message, config)
+        return {"status": RunStatus.CRASHED, "message": describe(error, state.config)}
 
 
 def describe(error: BaseException, config: RunConfig | None = None) -> str:

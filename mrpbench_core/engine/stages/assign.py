@@ -5,30 +5,24 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.api.assigner import AssignmentError
+from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.checking.assignment import check_assignment
 from mrpbench_core.checking.scenario import check_travel
-from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.engine.contract_checks import check_copied
-from mrpbench_core.engine.origins import title
-from mrpbench_core.engine.own import Handed
+from mrpbench_core.engine.contract_checks import check_returned
 from mrpbench_core.engine.stage import Announce, RunEnded
 from mrpbench_core.engine.stages.costs import cost_matrix
-from mrpbench_core.engine.stages.prepare import RunInstance, summary
+from mrpbench_core.engine.stages.run_instance import RunInstance, summary
 from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem
-from mrpbench_core.model.planning.plan import Plan
-from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.runs.status import RunStatus, Stage
 
 
-def assign(config: RunConfig, instance: RunInstance, announce: Announce, timing: dict[str, Any]) -> tuple[int, ...]:
+def assign(assigner: Assigner, instance: RunInstance, announce: Announce, timing: dict[str, Any]) -> tuple[int, ...]:
     """The task of each robot, -1 = none.
 
     Raises:
         RunEnded: no assignment was found, or the assigner returned a wrong one.
     """
     announce(Stage.ASSIGNMENT, {"scenario_id": instance.scenario.id})
-    assigner = config.assigner
     began = time.perf_counter()
     if assigner.reads_costs:
         costs = cost_matrix(assigner.cost, instance.roadmap, instance.fleet, instance.scenario)
@@ -38,24 +32,14 @@ def assign(config: RunConfig, instance: RunInstance, announce: Announce, timing:
         costs = np.zeros((len(instance.fleet), len(instance.scenario.tasks)))
     timing["cost_matrix_s"] = time.perf_counter() - began
     question = AssignmentProblem(costs=costs, tasks=instance.scenario.tasks)
-    handed = Handed(question, "the assignment problem")
     began = time.perf_counter()
     try:
-        assignment = assigner.assign(handed.given)
+        assignment = assigner.assign(question)
     except AssignmentError as error:
         raise RunEnded(RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, str(error)) from error
     timing["assignment_s"] = time.perf_counter() - began
-    assignment = check_copied(assigner, assignment, Assignment)
-    handed.check(assigner)
+    assignment = check_returned(assigner, assignment, Assignment)
     if faults := check_assignment(question, assignment):
-        raise RunEnded(
-            RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, f"{type(assigner).__name__} {faults[0]} ({title(assigner)})"
-        )
+        raise RunEnded(RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, f"{type(assigner).__name__} {faults[0]}")
     return tuple(int(task) for task in assignment.task)
 
-
-def tasks_of_plan(instance: RunInstance, problem: Problem, plan: Plan) -> tuple[int, ...]:
-    """The task of each robot when the planner has chosen: the one whose goal is where its path ends."""
-    task = {vertex: index for index, ((vertex,),) in reversed(list(enumerate(instance.goals)))}
-    starts = problem.start.tolist()
-    return tuple(task[path.end(problem.roadmap, start)] for path, start in zip(plan.paths, starts, strict=True))

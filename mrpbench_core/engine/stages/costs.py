@@ -5,10 +5,10 @@ from itertools import pairwise
 import numpy as np
 
 from mrpbench_core.api.assigner import Cost
-from mrpbench_core.engine.stages.prepare import goal_vertices, start_vertices
 from mrpbench_core.engine.travel import through, travel_ticks
 from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.goals import goal_vertices, start_vertices
 from mrpbench_core.model.planning.problem import GoalSet
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario

@@ -10,7 +10,6 @@ from mrpbench_core.api.discrete import DiscreteResult, DiscreteRun, DiscreteSimu
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.engine.contract_checks import check_returned
 from mrpbench_core.engine.execution.recorder import IRREGULAR, TASKS
-from mrpbench_core.engine.own import name_of, own
 from mrpbench_core.engine.stage import RunEnded, RunInputs
 from mrpbench_core.engine.stages.execute import call_timing
 from mrpbench_core.engine.stages.export import Exports
@@ -26,12 +25,11 @@ def execute_steps(inputs: RunInputs, context: RunContext, stream: TaskStream) ->
     simulator = config.simulator
     assert isinstance(simulator, DiscreteSimulator)
     inputs.announce(Stage.EXECUTION, {})
-    given = own(context)
     limit = min(config.replanning.budget or math.inf, config.limits.planning)
     run = DiscreteRun(
-        world=given.world,
-        fleet=given.fleet,
-        scenario=given.scenario,
+        world=context.world,
+        fleet=context.fleet,
+        scenario=context.scenario,
         stream=stream,
         planner=config.planner,
         duration=config.limits.execution,
@@ -47,13 +45,13 @@ def execute_steps(inputs: RunInputs, context: RunContext, stream: TaskStream) ->
     channels = {name: np.empty((0, *shape), kind) for name, (kind, shape) in (IRREGULAR | TASKS).items()}
     channels |= result.channels
     if "time" not in channels or not len(channels["time"]):
-        raise BrokenContractError(f"{name_of(simulator)} returned no samples")
+        raise BrokenContractError("the simulator returned no samples", "simulator")
     timing["real_time_factor"] = float(channels["time"][-1]) / timing["execution_wall_s"]
     if len(result.calls):
         timing.update(call_timing(list(result.calls), limit))
     timing["replanning_overruns"] = result.overruns
     timing["clock_bound"] = config.limits.iterations is None
-    writer, exports = RecordingWriter(inputs.paths.recording, context), Exports()
+    writer, exports = RecordingWriter(inputs.paths.recording, context, inputs.instance), Exports()
     try:
         exports.open(config.export, context, inputs.paths.exports)
         writer.write(channels)

@@ -26,16 +26,14 @@ from mrpbench_core.engine.execution.progress import ExecutionProgress
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.replanning import Replanner
-from mrpbench_core.engine.execution.routes import Router, start_poses
+from mrpbench_core.model.runs.routing import Router, start_poses
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.task_manager import TaskManager
 from mrpbench_core.engine.execution.worst_case import Adversary
-from mrpbench_core.engine.own import Handed, own
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.engine.stage import RunEnded, RunInputs
 from mrpbench_core.engine.stages.export import Exports
-from mrpbench_core.engine.stages.judge import Promises, judge
 from mrpbench_core.engine.stages.plan import budget_of, call_planner
 from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.execution.motion import Event
@@ -44,6 +42,7 @@ from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.runs.status import RunStatus, Stage
+from mrpbench_core.referee.plans import Promises, judge_plan
 from mrpbench_core.store.recording import RecordingWriter
 
 
@@ -80,9 +79,8 @@ def execute_plan(
         apart=config.crowds_apart,
     )
     context = attrs.evolve(context, movers=crowds.members)
-    writer = RecordingWriter(inputs.paths.recording, context)
+    writer = RecordingWriter(inputs.paths.recording, context, inputs.instance)
     exports = Exports()
-    handed = Handed(context, "the context")
 
     def sink(chunk: Chunk) -> None:
         writer.write({name: rows for name, rows in chunk.items() if config.recording.scans or name[:5] != "scan_"})
@@ -103,15 +101,14 @@ def execute_plan(
         )
         began = time.perf_counter()
         replanner = _replanner(inputs, context, router)
-        if inputs.observers.executing is not None:
-            inputs.observers.executing(context=own(context))
+        inputs.hooks.call("mrpbench_executing", context=context)
         if config.execution == "schedule_only":
             result, draws = _follow_schedule(config, context, recorder, faults)
             if len(draws["draw"]) > 1:
                 sink(draws)
         else:
             tasks = None if stream is None else _tasks(config, context, stream, recorder)
-            result = _simulate(inputs, context, handed, (poses, levels), crowds, recorder, replanner, faults, tasks)
+            result = _simulate(inputs, context, (poses, levels), crowds, recorder, replanner, faults, tasks)
         unarrived = {context.fleet.names[robot]: reason for robot, reason in result.unarrived.items()}
         for robot, reason in result.unarrived.items():
             recorder.events([Event(stamp=result.simulated_s, kind="not_arrived", robot=robot, detail=reason)])
@@ -125,7 +122,7 @@ def execute_plan(
         exports.abandon()
         raise
     finally:
-        inputs.observers.executed()
+        inputs.hooks.call("mrpbench_executed")
     recorder.flush()
     writer.close()
     inputs.announce(Stage.EXPORT, {})
@@ -162,7 +159,6 @@ def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replan
     config, timing = inputs.config, inputs.timing
 
     promises = Promises.of(config.planner)
-
     session = config.planner.start()
     limit = min(config.replanning.budget or math.inf, config.limits.planning)
     calls: list[float] = []
@@ -179,7 +175,7 @@ def _replanner(inputs: RunInputs, context: RunContext, router: Router) -> Replan
         calls.append(spent["planning_s"])
         timing.update(call_timing(calls, limit))
         timing["clock_bound"] = timing.get("clock_bound", False) or spent["clock_bound"]
-        result, fault = judge(promises, problem, result)
+        result, fault = judge_plan(promises, problem, result)
         late = max(0.0, calls[-1] - limit)
         return result, fault or (f"the planner ended with {result.status}" if result.plan is None else None), late
 
@@ -219,7 +215,6 @@ def _tasks(config: RunConfig, context: RunContext, stream: TaskStream, recorder:
 def _simulate(
     inputs: RunInputs,
     context: RunContext,
-    handed: Handed[RunContext],
     starts: tuple[Float, Int16],
     crowds: Crowds,
     recorder: Recorder,
@@ -237,9 +232,7 @@ def _simulate(
     seed = seed_of(*seeds, "simulator")
     radii = [mover.radius for mover in crowds.members]
     placed = poses.copy(), seed, context.period, radii
-    given = handed.given
-    opened = config.simulator.open(given.world, given.fleet, *placed, levels=levels.copy())
-    handed.check(config.simulator)
+    opened = config.simulator.open(context.world, context.fleet, *placed, levels=levels.copy())
     result: ExecutionResult | None = None
     with check_returned(config.simulator, opened, Simulation) as simulation:
         if not np.array_equal(simulation.state.level, levels):
@@ -247,7 +240,6 @@ def _simulate(
         loop = ExecutionLoop(
             LoopInputs(
                 context=context,
-                handed=handed,
                 components=components,
                 crowds=crowds,
                 simulation=simulation,
@@ -262,13 +254,13 @@ def _simulate(
                 limit_s=config.limits.execution,
                 goal_tolerance=config.goal_tolerance,
                 seeds=seeds,
-                stepped=inputs.observers.stepped,
-                progress=ExecutionProgress(inputs.observers.progress, config.limits.execution),
+                hooks=inputs.hooks,
+                progress=ExecutionProgress(inputs.progress, config.limits.execution),
             )
         )
         result = loop.run()
     if result is None:
-        raise BrokenContractError("the simulator hid an exception")
+        raise BrokenContractError("the simulator hid an exception", "simulator")
     if tasks is not None and tasks.assignment_s:
         inputs.timing.update(_calls("assignment", tasks.assignment_s))
     return result

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.api.exporter import Exporter, ExporterSession
-from mrpbench_core.engine.own import own
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.model.runs.recording import Chunk
@@ -22,7 +21,7 @@ class Exports:
         self._open: dict[str, ExporterSession] = {}
 
     def open(self, exporters: Mapping[str, Exporter], context: RunContext, folder: Path) -> None:
-        """Begin them in `folder`, each with a copy of the context.
+        """Begin them in `folder`.
 
         Raises:
             InputError: an exporter's option does not fit.
@@ -31,7 +30,7 @@ class Exports:
             folder.mkdir(parents=True, exist_ok=True)
         for name, exporter in exporters.items():
             try:
-                self._open[name] = exporter.open(own(context), folder / name)
+                self._open[name] = exporter.open(context, folder / name)
             except (InputError, MemoryError):  # the user's to mend; the run's limit
                 raise
             except (Exception, SystemExit) as error:  # noqa: BLE001 - a plugin may raise anything

@@ -1,25 +1,27 @@
 """The fleet of a run: robot models by name or file, shared out over the scenario's robots."""
 
+from collections.abc import Sequence
+
 import attrs
 
-from mrpbench_core.config.settings import FleetEntry, RunConfig
+from mrpbench_core.config.settings import FleetEntry
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet, Lidar, RobotModel
 
 
-def build_fleet(config: RunConfig, size: int) -> Fleet:
+def build_fleet(entries: Sequence[FleetEntry], size: int) -> Fleet:
     """Robots in the order of the entries; entries without a count share what the others leave, as evenly as can be.
 
     Raises:
         InputError: unknown robot, or counts that do not add up to `size`.
     """
-    rest = size - sum(entry.count or 0 for entry in config.fleet)
-    sharing = sum(entry.count is None for entry in config.fleet)
+    rest = size - sum(entry.count or 0 for entry in entries)
+    sharing = sum(entry.count is None for entry in entries)
     if rest < 0 or (rest > 0 and not sharing):
         raise InputError(f"fleet: the counts add up to {size - rest}, the scenario has {size} robots")
     robots: list[RobotModel] = []
-    for entry in config.fleet:
+    for entry in entries:
         count = entry.count
         if count is None:
             count = -(-rest // sharing)

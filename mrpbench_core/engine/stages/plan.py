@@ -12,23 +12,12 @@ import attrs
 from mrpbench_core.api.planner import Planner, PlannerSession
 from mrpbench_core.checking.plan_result import result_fault
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.engine.contract_checks import check_copied
-from mrpbench_core.engine.own import Handed, own_returned
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.engine.stage import RunEnded
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.runs.status import RunStatus, Stage
-
-STATUS = {
-    PlanStatus.TIMEOUT: RunStatus.PLAN_TIMEOUT,
-    PlanStatus.OUT_OF_MEMORY: RunStatus.OUT_OF_MEMORY,
-    PlanStatus.UNSOLVABLE: RunStatus.PLAN_UNSOLVABLE,
-    PlanStatus.GAVE_UP: RunStatus.PLAN_NOT_FOUND,
-}
-"""A run's status for each way of having no plan."""
-
 
 LATE_S = 0.1
 """Wall seconds after the limit within which a planner that ended its search at the limit may still return."""
@@ -44,18 +33,15 @@ def call_planner(
     dropped: the planner timed out.
 
     Raises:
-        BrokenContractError: the planner changed the problem.
         RunEnded: the planner skips the problem.
     """
-    handed = Handed(problem, "the problem")
     _reset_peak()
     before = _resident()
     began, cpu = perf_counter(), cpu_s()
-    if reason := planner.skip(handed.given):
-        handed.check(planner)
-        raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, check_copied(planner, reason, str))
+    if reason := planner.skip(problem):
+        raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, str(reason))
     try:
-        result = (session or planner.start()).plan(handed.given, budget)
+        result = (session or planner.start()).plan(problem, budget)
     except InputError as error:  # no mistake of the user's any more: the problem was sound
         raise RuntimeError(f"the planner raised InputError: {error}") from error
     seconds = perf_counter() - began
@@ -64,12 +50,10 @@ def call_planner(
         "planning_cpu_s": cpu_s() - cpu,
         "planning_peak_bytes": max(0, _peak() - before),
     }
-    handed.check(planner)
     sound = result_fault(result) is None
-    if sound:
-        result = own_returned(result, "the planner")  # judged and used by what it is now
-        if seconds > budget.wall_s + LATE_S and result.status in (PlanStatus.SOLVED, PlanStatus.TIMEOUT):
-            result = attrs.evolve(result, status=PlanStatus.TIMEOUT, plan=None)
+    late = seconds > budget.wall_s + LATE_S
+    if sound and late and result.status in (PlanStatus.SOLVED, PlanStatus.TIMEOUT):
+        result = attrs.evolve(result, status=PlanStatus.TIMEOUT, plan=None)
     timing["clock_bound"] = sound and (bool(result.clock_bound) or result.status == PlanStatus.TIMEOUT)
     if sound and result.history:
         timing["planning_history"] = _history(result)

@@ -9,9 +9,10 @@ from mrpbench_core.engine.execution.destinations import Errand, Places
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.engine.stage import RunEnded
 from mrpbench_core.engine.stages.costs import cost_matrix
-from mrpbench_core.engine.stages.prepare import RunInstance, goal_yaws, summary
+from mrpbench_core.engine.stages.run_instance import RunInstance, summary
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.planning.goals import first_problem, goal_yaws
 from mrpbench_core.model.planning.problem import Feature, Goals, Problem, features_of
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.runs.status import RunStatus, Stage
@@ -100,15 +101,7 @@ def problem_with_features(roadmap: Roadmap, fleet: Fleet, start: np.ndarray, goa
     robots. On a wider raster the field's usual point-like conflicts suffice, since a dispatcher admits no robot to a
     cell before the last one has cleared it.
     """
-    profile = np.array(fleet.profiles[1], np.int32)
-    problem = Problem(
-        roadmap=roadmap,
-        profile=profile,
-        radius=fleet.radii,
-        start=start,
-        ready=np.zeros(len(fleet), "i8"),
-        goals=goals,
-    )
+    problem = first_problem(roadmap, fleet, start, goals)
     wide = 2 * float(np.sort(fleet.radii)[-2:].mean())
     features = features_of(problem)
     crowded = Feature.HEADINGS in features or roadmap.grid is None or wide > roadmap.grid.cell_size + 1e-9

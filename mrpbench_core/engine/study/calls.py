@@ -14,12 +14,12 @@ from typing import Any, NoReturn
 import attrs
 
 from mrpbench_core.api.executor import ExecutorSource, RemoteExecutor, WorkerLost
-from mrpbench_core.engine.origins import title
 from mrpbench_core.engine.processes.job import Failure, Job, JobOutcome
 from mrpbench_core.engine.processes.slots import close_slots, run_in_slot
 from mrpbench_core.engine.record import RunRecord
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.plugins.contract import is_of
+from mrpbench_core.plugins.provenance import title
 
 LOG = logging.getLogger(__name__)
 PATIENCE_S = 60.0

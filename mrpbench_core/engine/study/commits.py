@@ -129,10 +129,8 @@ class Commits:
 
     def _complete(self, ended: EndedRun) -> dict[str, Any]:
         point, attempt, outcome = ended.point, ended.attempt, ended.outcome
-        if outcome.record is None or not outcome.record.executed:
-            recorded = outcome.failure is not None and outcome.failure.stage == Stage.METRICS
-            if not recorded:  # it was not executed to its end
-                self.folder.forget(point.run_id, attempt)
+        if outcome.record is None and (outcome.failure is None or outcome.failure.stage != Stage.METRICS):
+            self.folder.forget(point.run_id, attempt)  # nothing was judged
         record = complete_record(point, attempt, outcome, self.workers, self.invocation)
         if outcome.record is None:
             paths = self.folder.run(point.run_id, attempt)

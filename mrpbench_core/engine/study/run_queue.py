@@ -122,6 +122,7 @@ class RunQueue:
         return Job(
             run_id=point.run_id,
             parcel=point.parcel,
+            facts=point.facts,
             paths=self.folder.run(point.run_id, attempt),
             log=self.folder.log(point.run_id),
             wall_s=point.wall_s,

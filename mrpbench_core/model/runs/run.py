@@ -12,6 +12,8 @@ from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.scenario import Scenario
+from mrpbench_core.model.runs.instance import Instance
+from mrpbench_core.model.runs.routing import PlanFilter
 from mrpbench_core.model.worlds.world import World
 
 Loaders = Mapping[str, Callable[[], NDArray[Any]]]
@@ -39,8 +41,25 @@ class RunContext:
     """simulated seconds from the request for a new plan until it is in force."""
     assigned: tuple[int, ...] = ()
     """Task of each robot, -1 = none."""
+    planner_assigns: bool = False
+    """The planner chose the tasks: in the problem every robot has the goals of all of them."""
     movers: tuple[Mover, ...] = ()
     """The members of all crowds, by index."""
+    goal_tolerance: float = 0.7
+    """metres from its goal within which a robot has arrived."""
+    plan_filter: PlanFilter = "none"
+    """Between plan and routes."""
+
+    @property
+    def instance(self) -> Instance:
+        """What the run is about."""
+        return Instance(
+            world=self.world,
+            fleet=self.fleet,
+            scenario=self.scenario,
+            problem=self.problem,
+            assigned=None if self.planner_assigns else self.assigned,
+        )
 
     @property
     def mover_names(self) -> tuple[str, ...]:

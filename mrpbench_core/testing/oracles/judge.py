@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 
 from mrpbench_core.api.planner import Planner, Promise
-from mrpbench_core.engine.stages.judge import Promises, judge
+from mrpbench_core.referee.plans import Promises, judge_plan
 from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.faults import require

@@ -19,7 +19,6 @@ from mrpbench_core.testing.suites.importer import ImporterConformance
 from mrpbench_core.testing.suites.localizer import LocalizerConformance
 from mrpbench_core.testing.suites.metric import MetricConformance
 from mrpbench_core.testing.suites.navigator import NavigatorConformance
-from mrpbench_core.testing.suites.plan_filter import PlanFilterConformance
 from mrpbench_core.testing.suites.planner import PlannerConformance
 from mrpbench_core.testing.suites.recovery import RecoveryConformance
 from mrpbench_core.testing.suites.roadmap import RoadmapConformance
@@ -35,7 +34,6 @@ SUITES: dict[str, type[ComponentConformance]] = {
     "task_source": TaskSourceConformance,
     "assigner": AssignerConformance,
     "planner": PlannerConformance,
-    "plan_filter": PlanFilterConformance,
     "dispatcher": DispatcherConformance,
     "navigator": NavigatorConformance,
     "controller": ControllerConformance,

@@ -8,7 +8,7 @@ from mrpbench_core.builtin.worlds.shipped import Hospital
 from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.checking.world import check_world
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.worlds.doors import leaf_segments

@@ -4,7 +4,7 @@ import attrs
 import numpy as np
 import pytest
 
-from mrpbench_core.engine.execution.routes import Router
+from mrpbench_core.model.runs.routing import Router
 
 
 @pytest.fixture

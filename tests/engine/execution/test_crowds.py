@@ -9,7 +9,7 @@ from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.builtin.crowds.scripted import Scripted, Track
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.crowds import Crowds
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording

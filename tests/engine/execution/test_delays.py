@@ -8,7 +8,7 @@ import pytest
 from mrpbench_core.config.delays import Delays
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.delays import DelayStream
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 

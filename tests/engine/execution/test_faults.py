@@ -16,10 +16,10 @@ from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.faults import FaultState, approaches, draw_faults
 from mrpbench_core.engine.execution.recorder import Recorder
-from mrpbench_core.engine.execution.routes import Router
+from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.observation import ScanBatch

@@ -18,7 +18,7 @@ from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.files.errors import InputErrors
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Feature

@@ -11,7 +11,7 @@ from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.worst_case import Adversary, lateness
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.files.errors import InputErrors
 from mrpbench_core.model.planning.dependencies import Dependencies
 from mrpbench_core.store.paths import RunPaths

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.engine.seeds import stream
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.store.paths import RunPaths

@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.unpacking import unpack
-from mrpbench_core.engine.execution.routes import start_poses
+from mrpbench_core.model.runs.routing import start_poses
 from mrpbench_core.engine.json_values import jsonable
 from mrpbench_core.engine.pipeline import router_of
 from mrpbench_core.engine.stage import RunEnded
 from mrpbench_core.engine.stages.assign import assign, tasks_of_plan
-from mrpbench_core.engine.stages.claims import claims_of
-from mrpbench_core.engine.stages.judge import Promises, judge
-from mrpbench_core.engine.stages.measure import measure_recording
+from mrpbench_core.referee.plan_summary import claims_of
+from mrpbench_core.referee.plans import Promises, judge_plan
+from mrpbench_core.referee.measuring import measure_recording
 from mrpbench_core.engine.stages.prepare import RunInstance, build_run_instance
 from mrpbench_core.engine.stages.problem_building import build_problem
 from mrpbench_core.files.codec import decode, encode

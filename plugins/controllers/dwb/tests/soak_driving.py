@@ -22,7 +22,7 @@ from mrpbench_metrics_standard.progress import progress
 
 from mrpbench_core.builtin.navigators.obstructions import obstruction
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.model.execution.motion import Mode
 from mrpbench_core.model.runs.status import PLANNED, RunStatus
 from mrpbench_core.store.paths import RunPaths

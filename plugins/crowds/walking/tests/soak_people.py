@@ -24,7 +24,7 @@ import psutil
 from mrpbench_core.api import Crowd, CrowdSession, CrowdView, Movers
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.runs.status import PLANNED

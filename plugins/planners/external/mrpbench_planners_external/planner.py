@@ -106,6 +106,11 @@ class External(Planner):
         return frozenset(self.promised)
 
     @property
+    def suboptimality(self) -> float:
+        """The option `w`."""
+        return self.w or 1.0
+
+    @property
     def command_line(self) -> str:
         """The arguments, with placeholders."""
         known = PRESETS[self.preset] if self.preset else GENERAL

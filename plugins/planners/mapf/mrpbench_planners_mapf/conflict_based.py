@@ -10,6 +10,18 @@ OPTIMAL = frozenset(Promise) - {Promise.BOUNDED}
 BOUNDED = frozenset(Promise) - {Promise.OPTIMAL}
 
 
+class BoundedCosts:
+    """Promises costs of at most `w` times the least, with the option `w` of the algorithm."""
+
+    w: float
+    promises: ClassVar[frozenset[Promise]] = BOUNDED
+
+    @property
+    def suboptimality(self) -> float:
+        """The option `w`."""
+        return self.w
+
+
 class ConflictBased(RobustPlanner):
     """A planner that splits conflicts of two robots, so no resource may hold more than one."""
 

@@ -11,7 +11,7 @@ from mrpbench_native.options import Option
 
 from mrpbench_core.api.component import between, option
 from mrpbench_core.api.described import as_option, described, validator_of
-from mrpbench_core.api.planner import Planner
+from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
@@ -98,6 +98,16 @@ class RobustPlanner(NativePlanner):
         help="for `p`: longest stop, in ticks of the roadmap; lengths are uniform",
         validator=attrs.validators.and_(attrs.validators.ge(1), _not_below_min),
     )
+
+    @property
+    def kept_promises(self) -> frozenset[Promise]:
+        """Neither costs nor to find a plan with `p`, because waits are added afterwards."""
+        return self.promises - ({Promise.OPTIMAL, Promise.BOUNDED, Promise.COMPLETE} if self.p else set())
+
+    @property
+    def robustness(self) -> int:
+        """The option `k`."""
+        return self.k
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """See `Planner.plan`."""

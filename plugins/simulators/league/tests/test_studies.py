@@ -8,7 +8,7 @@ from mrpbench_simulators_league.simulator import League, StepPlanner
 
 from mrpbench_core.checking.lorr.rescore import rescore
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.pipeline import execute
+from mrpbench_core.engine.run import execute
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.files.lorr.output import read_output
 from mrpbench_core.files.lorr.problem import read_problem

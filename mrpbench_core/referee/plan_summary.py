@@ -10,14 +10,14 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.planner import Promise
-from mrpbench_core.engine.stages.judge import Promises
+from mrpbench_core.referee.plans import Promises
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
 
 _name = functools.cache(str)  # NumPy takes 15 µs to spell a type
 
 
-def claims_of(promises: Promises, problem: Problem, result: PlanResult) -> dict[str, Any]:
+def plan_summary(promises: Promises, problem: Problem, result: PlanResult) -> dict[str, Any]:
     """Return the entry `plan` of the record; see `docs/reference/results-folder.md`.
 
     Args:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from mrpbench_core.builtin.plan_filters.stairs import Stairs
+from mrpbench_core.model.runs.stairs import without_stairs
 
 
 @pytest.mark.parametrize(
@@ -20,4 +20,4 @@ from mrpbench_core.builtin.plan_filters.stairs import Stairs
 )
 def test_corners_between_equal_distances_are_left_out(cells, kept):
     waypoint = 0.35 * np.array(cells, float) + 7.0
-    assert Stairs().keep(waypoint).tolist() == [bool(one) for one in kept]
+    assert without_stairs(waypoint).tolist() == [bool(one) for one in kept]

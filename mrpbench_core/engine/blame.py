@@ -3,32 +3,17 @@
 import traceback
 from collections.abc import Iterator
 
-import attrs
-
 from mrpbench_core.api.component import Component
+from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.plugins.kinds import kind_of
-from mrpbench_core.plugins.provenance import components_in, origin
+from mrpbench_core.plugins.provenance import components_in, title
 
 
-def title(component: Component) -> str:
-    """Kind, name and origin of a component, e.g. `planner 'cbs' of mrpbench-standard 0.1`."""
-    found = origin(type(component))
-    owner = f" of {found['distribution']} {found['version']}" if "distribution" in found else ""
-    return f"{found['kind']} '{found['name']}'{owner}"
-
-
-def with_origin(message: str, config: RunConfig) -> str:
-    """Add which component is meant to a message such as `the localizer returned None instead of Estimate`."""
-    for field in attrs.fields(RunConfig):
-        component = getattr(config, field.name)
-        if isinstance(component, Component):
-            kind = kind_of(component.group).replace("_", " ")
-            if message.startswith(f"the {kind} "):
-                return f"{message} ({title(component)})"
-    if message.startswith("a crowd "):
-        return f"{message} ({' or '.join(map(title, config.crowds))})"
-    return message
+def broken(error: BrokenContractError, config: RunConfig | None) -> str:
+    """The message of a broken contract, with the component that the configuration chose."""
+    chosen = getattr(config, error.setting, None) if error.setting else None
+    found = [chosen] if isinstance(chosen, Component) else list(chosen or ())
+    return f"{error} ({' or '.join(map(title, found))})" if found else str(error)
 
 
 def owner_of(error: BaseException, config: RunConfig) -> Component | None:

@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.engine.execution.routes import Router, speed_limits, start_poses
+from mrpbench_core.model.runs.routing import Router, speed_limits, start_poses
 from mrpbench_core.model.worlds.world import Lane
 
 ANY = np.array([np.nan, np.nan])

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from mrpbench_core.api.planner import Promise
-from mrpbench_core.engine.stages.claims import claims_of, fingerprint
-from mrpbench_core.engine.stages.judge import Promises
+from mrpbench_core.referee.plan_summary import claims_of, fingerprint
+from mrpbench_core.referee.plans import Promises
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Rules
 

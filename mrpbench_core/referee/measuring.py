@@ -2,45 +2,30 @@
 
 import traceback
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
-import attrs
 import numpy as np
 
-from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.metric import Metric
-from mrpbench_core.engine.origins import title
-from mrpbench_core.engine.own import Handed, own
 from mrpbench_core.files.errors import one_line
 from mrpbench_core.model.runs.run import FinishedRun
-from mrpbench_core.plugins.provenance import is_of_others
-from mrpbench_core.store.recording import Recording
 
 NUMBER = int | float | np.integer | np.floating | np.bool_
+Measured = tuple[dict[str, Any], dict[str, str]]
+"""Values by `<metric>.<column>`, and the reason for each metric or `<metric>.<column>` that cannot be measured."""
 
 
-def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, Any], dict[str, str]]:
-    """Values by `<metric>.<column>`, and the reason for each metric or `<metric>.<column>` that cannot be measured.
-
-    Metrics of other distributions than those of this project are measured last: they are code in this process, and can
-    change functions that the others call.
-    """
+def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> Measured:
+    """Return the values of metrics, in their order."""
     values: dict[str, Any] = {}
     reasons: dict[str, str] = {}
-    handed = Handed(run.context, "the context")
-    for name, metric in sorted(metrics.items(), key=lambda entry: is_of_others(entry[1])):
+    for name, metric in metrics.items():
         reason = _obstacle(metric.requires, run) or (None if metric.requires or run.planned else "planned by others")
         if reason is not None:
             reasons[name] = reason
             values |= {f"{name}.{column.name}": None for column in metric.columns}
             continue
-        measured, reason = _measured(metric, attrs.evolve(run, context=handed.given))
-        try:
-            handed.check(metric)
-        except BrokenContractError:
-            measured, reason = {}, f"the metric changed the run ({title(metric)})"
-            handed = Handed(run.context, "the context")
+        measured, reason = _measured(metric, run)
         if reason is not None:
             reasons[name] = reason
         for column in metric.columns:
@@ -49,10 +34,15 @@ def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> tuple[dict[str, 
                 reasons[key], value = reason, None
             elif (fault := _fault(measured, column.name)) is not None:
                 if name not in reasons:
-                    reasons[key] = f"the metric returned {fault} ({title(metric)})"
+                    reasons[key] = f"the metric returned {fault}"
                 value = None
             values[key] = value
     return values, reasons
+
+
+def unmeasurable(name: str, metric: Metric | type[Metric], reason: str) -> Measured:
+    """The values of a metric that could not be called."""
+    return {f"{name}.{column.name}": None for column in metric.columns}, {name: reason}
 
 
 def _fault(measured: Mapping[str, Any], column: str) -> str | None:
@@ -72,28 +62,13 @@ def _fault(measured: Mapping[str, Any], column: str) -> str | None:
 def _measured(metric: Metric, run: FinishedRun) -> tuple[Mapping[str, Any], str | None]:
     """The result of a metric, or the reason why it has none: its defects must not affect the run or other metrics."""
     try:
-        measured = own(metric.measure(run))
+        measured = metric.measure(run)
     except (Exception, SystemExit) as error:  # noqa: BLE001 - a plugin may raise anything
         traceback.print_exc()  # into the run's log
-        return {}, f"the metric raised {one_line(error)} ({title(metric)})"
+        return {}, f"the metric raised {one_line(error)}"
     if not isinstance(measured, Mapping):
-        return {}, f"the metric returned {type(measured).__name__} instead of a mapping ({title(metric)})"
+        return {}, f"the metric returned {type(measured).__name__} instead of a mapping"
     return measured, None
-
-
-def measure_recording(metrics: Mapping[str, Metric], file: Path) -> tuple[dict[str, Any], dict[str, str]]:
-    """Measure a stored recording; returns the same as `measure`."""
-    recording = Recording(file)
-    try:
-        run = FinishedRun(
-            context=recording.context(),
-            executed=True,
-            channels=recording.channels,
-            first_routes=recording.first_context().routes,
-        )
-        return measure(metrics, run)
-    finally:
-        recording.close()
 
 
 def describe(metrics: Mapping[str, Metric | type[Metric]]) -> dict[str, dict[str, Any]]:

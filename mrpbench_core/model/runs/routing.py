@@ -1,18 +1,20 @@
 """From a plan on the roadmap to routes in metres."""
 
 from collections.abc import Sequence
+from typing import Literal
 
 import attrs
 import numpy as np
 
-from mrpbench_core.api.plan_filter import PlanFilter
-from mrpbench_core.engine.contract_checks import check_kept
 from mrpbench_core.model.common.arrays import Bool, Float, Int16
 from mrpbench_core.model.execution.route import Route, Routes
 from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.runs.stairs import without_stairs
 from mrpbench_core.model.worlds.world import World
+
+PlanFilter = Literal["none", "mrp_bench_stairs"]
 
 
 @attrs.frozen
@@ -25,7 +27,7 @@ class Router:
     """f8[n] radians wanted at the end, NaN = any."""
     speed_limits: Float
     """f8[E] m/s, inf = none."""
-    plan_filter: PlanFilter | None = None
+    plan_filter: PlanFilter = "none"
 
     def __call__(self, plan: Plan) -> Routes:
         """The routes of `plan`."""
@@ -38,7 +40,7 @@ class Router:
         if len(self.speed_limits):
             limits = np.where(paths.edge >= 0, self.speed_limits[paths.edge], np.inf)
             speed[np.arange(len(limits)) + paths.robot] = limits
-        changed = ~np.isnan(self.final_yaw) if self.plan_filter is None else np.ones(len(paths), bool)
+        changed = ~np.isnan(self.final_yaw) if self.plan_filter == "none" else np.ones(len(paths), bool)
         for robot in np.flatnonzero(changed).tolist():
             rows = slice(*first[robot : robot + 2].tolist())
             waypoint[rows] = self._line(robot, waypoint[rows], level[rows])
@@ -48,9 +50,14 @@ class Router:
         """The waypoints f8[k+1,3] of a robot with the yaw wanted at the end, filtered."""
         if not np.isnan(self.final_yaw[robot]):
             waypoint[_end(waypoint, level) :, 2] = self.final_yaw[robot]
-        if self.plan_filter is None:
+        if self.plan_filter == "none":
             return waypoint
-        return _straightened(waypoint, check_kept(self.plan_filter.keep(waypoint[:, :2].copy()), len(waypoint)))
+        return _straightened(waypoint, without_stairs(waypoint[:, :2]))
+
+
+def ends_of(routes: Sequence[Route]) -> tuple[tuple[float, float, float], ...]:
+    """x, y (metres) and yaw (NaN = any) of the last waypoint of each route."""
+    return tuple((float(x), float(y), float(yaw)) for x, y, yaw in (route.waypoint[-1] for route in routes))
 
 
 def _end(waypoint: Float, level: Int16) -> int:

@@ -1,7 +1,8 @@
 """Judges a plan by what its planner promises."""
 
 import math
-from typing import Self
+from collections.abc import Mapping
+from typing import Any, Self
 
 import attrs
 
@@ -9,13 +10,14 @@ from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.checking.assignment import check_choice
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.checking.plan_result import result_fault
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
 
 
 @attrs.frozen(kw_only=True)
 class Promises:
-    """The promises of a planner, noted before it is called."""
+    """The promises of a planner as it is configured, noted before it is called."""
 
     kept: frozenset[Promise]
     factor: float
@@ -26,20 +28,37 @@ class Promises:
 
     @classmethod
     def of(cls, planner: Planner) -> Self:
-        """The promises of a planner as it is configured."""
-        promised = frozenset(planner.promises)
-        if Promise.ROBUST in promised and getattr(planner, "p", False):
-            promised -= {Promise.OPTIMAL, Promise.BOUNDED, Promise.COMPLETE}  # the waits for `p` are added afterwards
-        factor = float(getattr(planner, "w", 1.0)) if Promise.BOUNDED in promised else 1.0
-        k = int(getattr(planner, "k", 0)) if Promise.ROBUST in promised else 0
-        return cls(kept=promised, factor=factor, assigns=bool(planner.assigns), k=k)
+        """The promises of a planner.
+
+        Raises:
+            InputError: it promises something without saying how much.
+        """
+        kept = frozenset(planner.kept_promises)
+        for promise, name in ((Promise.BOUNDED, "suboptimality"), (Promise.ROBUST, "robustness")):
+            if promise in kept and getattr(type(planner), name) is getattr(Planner, name):
+                raise InputError(f"planner: {type(planner).__name__} promises `{promise}`, so it must override `{name}`")
+        return cls(
+            kept=kept,
+            factor=float(planner.suboptimality) if Promise.BOUNDED in kept else 1.0,
+            assigns=bool(planner.assigns),
+            k=int(planner.robustness) if Promise.ROBUST in kept else 0,
+        )
 
     def asked(self, problem: Problem) -> Problem:
         """The problem with the rules that the plan keeps."""
         return attrs.evolve(problem, rules=attrs.evolve(problem.rules, k=self.k))
 
+    def message(self) -> dict[str, Any]:
+        """The promises as plain data."""
+        return {**attrs.asdict(self), "kept": sorted(self.kept)}
 
-def judge(promises: Promises, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:
+    @classmethod
+    def of_message(cls, message: Mapping[str, Any]) -> Self:
+        """The promises that another process sent."""
+        return cls(**{**message, "kept": frozenset(map(Promise, message["kept"]))})
+
+
+def judge_plan(promises: Promises, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:
     """Count the plan's conflicts, and say which promise it breaks, or None.
 
     Every planner must return valid paths, and one that assigns must give each robot a task of its own. Freedom from

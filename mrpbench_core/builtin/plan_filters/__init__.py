@@ -1,1 +1,0 @@
-"""Plan filters remove waypoints from a plan before robots drive along it."""

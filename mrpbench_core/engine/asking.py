@@ -1,0 +1,54 @@
+"""What runs are asked to do, as plain data: read from configurations where their plugins are, before any run."""
+
+from typing import Any
+
+import attrs
+
+from mrpbench_core.api.component import Component
+from mrpbench_core.api.discrete import DiscreteSimulator
+from mrpbench_core.config.settings import RunConfig
+from mrpbench_core.engine.stages.question import SETTINGS, facts_of
+from mrpbench_core.plugins.provenance import components_in, is_of_others, title
+from mrpbench_core.referee.asked import Asked
+from mrpbench_core.referee.plans import Promises
+
+
+def asked_of(config: RunConfig, run_id: str) -> Asked:
+    """What a run is asked to do, for its verdict.
+
+    Raises:
+        InputError: the planner promises something without saying how much.
+    """
+    chosen = {field.name: getattr(config, field.name) for field in attrs.fields(RunConfig)}
+    return Asked(
+        run_id=run_id,
+        promises=Promises.of(config.planner),
+        executes=config.executes,
+        driven=config.simulator is not None and not isinstance(config.simulator, DiscreteSimulator),
+        tasks=config.tasks is not None,
+        limit_s=config.limits.execution,
+        period=1 / config.control_rate,
+        rate=config.recording.rate,
+        latency=config.replanning.latency,
+        goal_tolerance=config.goal_tolerance,
+        plan_filter=config.plan_filter,
+        actuation=config.noise.actuation,
+        apart=config.crowds_apart,
+        titles={name: title(value) for name, value in chosen.items() if isinstance(value, Component)},
+    )
+
+
+def facts_of_run(config: RunConfig) -> dict[str, Any]:
+    """What the other processes of a run need to know without its plugins."""
+    asked = asked_of(config, "").message()
+    settings = [getattr(config, name) for name in SETTINGS]
+    return {
+        "asked": asked,
+        "question": {**facts_of(config.planner), "executes": config.executes},
+        "others_make_instance": any(map(is_of_others, components_in(settings))),
+        "others_metrics": [
+            {"number": number, "name": name, "columns": [column.name for column in metric.columns]}
+            for number, (name, metric) in enumerate(config.metrics.items())
+            if any(map(is_of_others, components_in(metric)))
+        ],
+    }

@@ -1,0 +1,99 @@
+"""Makes the record of a run from its verdict and the claims of its process, in a process that knows no plugin of others."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import attrs
+
+from mrpbench_core.api.metric import Metric
+from mrpbench_core.engine.drive import Claims
+from mrpbench_core.engine.record import RunError, RunRecord
+from mrpbench_core.files.printing import printable
+from mrpbench_core.model.runs.status import RunStatus
+from mrpbench_core.referee.asked import Asked
+from mrpbench_core.referee.measuring import Measured
+from mrpbench_core.referee.verdict import Ending, Verdict, judge
+from mrpbench_core.store.instances import InstanceFolder
+from mrpbench_core.store.paths import RunPaths
+from mrpbench_core.store.recording import Recording
+from mrpbench_core.store.run_files import seal
+
+
+@attrs.frozen(kw_only=True)
+class Prepared:
+    """The instance of a run, and what was found while it was made."""
+
+    scenario_id: str
+    instance: str
+    """Its name in the folder of instances."""
+    reassigned: int = 0
+    """The number of robots whose goal is not the one that the scenario gives them."""
+    timing: dict[str, Any] = attrs.field(factory=dict)
+
+
+def record_of(
+    asked: Asked, prepared: Prepared, claims: Claims, paths: RunPaths, metrics: Mapping[str, Metric]
+) -> RunRecord:
+    """Judge a run, and return its record.
+
+    Args:
+        asked: of the run.
+        prepared: its instance.
+        claims: of the process in which it ran.
+        paths: with its recording, unless it ended before.
+        metrics: to measure, of this project only.
+
+    Raises:
+        OSError: a file cannot be read or written.
+    """
+    record = RunRecord(
+        run_id=asked.run_id,
+        scenario_id=prepared.scenario_id,
+        reassigned=prepared.reassigned,
+        timing=prepared.timing | claims.timing,
+        unexported=claims.unexported,
+        unarrived=claims.unarrived,
+        true_poses=claims.true_poses,
+    )
+    verdict = Verdict(ending=claims.ending)
+    if claims.recorded:
+        recording = Recording(paths.recording, InstanceFolder(paths.instances))
+        try:
+            verdict = judge(asked, recording, metrics, claims.ending)
+            record.executed = asked.executes and "time" in recording.channels
+        finally:
+            recording.close()
+    record.plan, record.metrics, record.unmeasured = verdict.plan, verdict.metrics, verdict.unmeasured
+    end(record, verdict.ending)
+    return record
+
+
+def keep(record: RunRecord, paths: RunPaths, kept: str) -> None:
+    """Bring the files of a run to disk, or remove a recording that is not kept.
+
+    Args:
+        record: names the files from now on.
+        paths: of the run.
+        kept: `all`, `failed` or `none`.
+
+    Raises:
+        OSError: a file cannot be read or written.
+    """
+    wanted = kept == "all" or (kept == "failed" and record.status != RunStatus.SUCCEEDED)
+    record.files = seal(paths, recording=wanted)
+    if not wanted:
+        paths.recording.unlink(missing_ok=True)
+
+
+def add(record: RunRecord, measured: Measured) -> None:
+    """Add the values of metrics that were measured in another process."""
+    values, reasons = measured
+    record.metrics, record.unmeasured = record.metrics | values, record.unmeasured | reasons
+
+
+def end(record: RunRecord, ending: Ending | None) -> None:
+    """Give a record the status and the reason of an ending; None: the run succeeded."""
+    if ending is None:
+        return
+    record.status = ending.status
+    record.error = RunError(stage=ending.stage, message=printable(ending.message))

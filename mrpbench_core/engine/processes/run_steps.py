@@ -1,0 +1,84 @@
+"""Does the steps of one run in turn, each in a process that another fork server forks; see `steps`.
+
+The process that judges is forked from a server in which no module of another distribution was ever imported.
+"""
+
+import json
+import time
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
+
+from mrpbench_core.engine.stages.question import SETTINGS
+
+Message = dict[str, Any]
+Ask = Callable[[Mapping[str, Any], str], Message]
+"""Lets a process do a step that the fork server with this key forks, and returns its answer."""
+OURS = "ours"
+"""Key of the fork server in which no module of another distribution is imported."""
+
+
+def run_in_steps(job: Message, ask: Ask) -> Message:
+    """Return the answer to the job of a run: its record, or what ended it."""
+    steps = _Steps(job, ask)
+    answer = steps("prepare", OURS if not job["facts"]["others_make_instance"] else _key(job, SETTINGS))
+    if "prepared" not in answer:
+        return answer
+    job["prepared"] = answer["prepared"]
+    answer = steps("drive", _key(job))
+    if "claims" not in answer:
+        return answer
+    job["claims"] = answer["claims"]
+    answer = steps("judge", OURS)
+    if "record" not in answer:
+        return answer
+    record = answer["record"]
+    for metric in job["facts"]["others_metrics"] if record["metrics"] or not record["error"] else ():
+        job["metric"] = metric["number"]
+        measured = steps("measure", _key(job, ("metrics", metric["number"])))
+        values, reasons = measured.get("measured") or _unmeasured(metric, measured)
+        record["metrics"] |= values
+        record["unmeasured"] |= reasons
+    return answer
+
+
+class _Steps:
+    """The steps of one run, which share its wall time."""
+
+    def __init__(self, job: Message, ask: Ask) -> None:
+        self._job, self._ask = job, ask
+        self._ends = time.monotonic() + job["wall_s"]
+
+    def __call__(self, step: str, plugins: str) -> Message:
+        left = max(0.0, self._ends - time.monotonic())
+        return self._ask({**self._job, "step": step, "wall_s": left, "limit_s": self._job["wall_s"]}, plugins)
+
+
+def _unmeasured(metric: Message, answer: Message) -> tuple[Message, Message]:
+    """The values of a metric of others whose process ended without them."""
+    failure = answer.get("failure") or {"message": answer.get("mistake", "its process ended")}
+    name, message = metric["name"], f"its process: {failure['message']}"
+    return {f"{name}.{column}": None for column in metric["columns"]}, {name: message}
+
+
+def _key(job: Message, settings: tuple[Any, ...] = ()) -> str:
+    """The key of the fork server for the plugins of some settings, by default of all."""
+    parcel = job["parcel"]
+    value: Any = parcel["config"]
+    if settings[:1] == ("metrics",):
+        value = value["metrics"][settings[1]]
+    elif settings:
+        value = [value[name] for name in settings]
+    sources = parcel["sources"]
+    return json.dumps([sorted(set(_plugins(value))), sources, parcel["folder"] if sources else None, bool(settings)])
+
+
+def _plugins(value: Any) -> Iterator[str]:
+    """The names of all plugins in a configuration as plain data."""
+    if isinstance(value, dict):  # of JSON; an abstract class would take twice as long, for every run
+        if isinstance(value.get("plugin"), str):
+            yield value["plugin"]
+        for inner in value.values():
+            yield from _plugins(inner)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from _plugins(inner)

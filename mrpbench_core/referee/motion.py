@@ -1,0 +1,221 @@
+"""Whether robots can have moved as a recording says: from true poses, shapes and limits, not from what anything claims.
+
+Each check allows what honest simulators do between two samples: rounding, the settling of bodies, and pushes of others
+where the recording has contacts. Shapes are the largest discs inside the footprints, so that no overlap is doubtful.
+"""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from mrpbench_core.checking.clearance import has_clearance
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16
+from mrpbench_core.model.common.fleet import Fleet, RobotModel
+from mrpbench_core.model.common.geometry import point_segment_distance
+from mrpbench_core.model.common.poses import wrapped
+from mrpbench_core.model.execution.movers import Mover
+from mrpbench_core.model.runs.routing import start_poses
+from mrpbench_core.model.runs.run import FinishedRun
+from mrpbench_core.model.worlds.world import World
+
+NUDGE, TURN = 0.05, 0.1
+"""Metres and radians that a robot may always move between two samples: bodies settle, and poses are rounded."""
+EXCESS = 1.05
+"""Factor by which a robot may exceed its limits over a second."""
+WINDOW_S = 1.0
+"""Seconds over which speeds are judged."""
+PUSHED_S = 1.0
+"""Seconds after a contact in which the speed of a robot says nothing."""
+DEPTH = 0.03
+"""Metres by which bodies must overlap before a contact is missed."""
+START = 0.05
+"""Metres from its start at which a robot may begin."""
+
+
+def motion_fault(run: FinishedRun, rate: float, actuation: float, apart: bool = False) -> str | None:
+    """Return what robots cannot have done, as a sentence, or None.
+
+    Args:
+        run: executed in control periods.
+        rate: samples per simulated second.
+        actuation: standard deviation of the relative error of speeds.
+        apart: movers and robots do not touch one another.
+    """
+    return next(_faults(run, rate, actuation, apart), None)
+
+
+def _faults(run: FinishedRun, rate: float, actuation: float, apart: bool) -> Iterator[str]:
+    context, time, truth = run.first_context(), run.channel("time"), run.channel("truth")
+    level, names = run.channel("level"), context.fleet.names
+    if not len(time) or not np.isfinite(truth).all():
+        yield "some poses are missing or not finite"
+        return
+    yield from _sampling(time, rate, context.period)
+    away = np.abs(truth[0] - start_poses(context.routes, context.scenario.start[:, 2]))[:, :2].max(axis=1)
+    yield from (f"{names[robot]} does not begin at its start" for robot in np.flatnonzero(away > START))
+    pushed = _pushed(run, time, len(context.fleet))
+    excess = EXCESS + 4 * actuation
+    yield from _speeds(time, truth, pushed, context.fleet, excess)
+    yield from _walls(context.world, names, time, truth[..., :2], level)
+    yield from _levels(context.world, names, time, truth[..., :2], level)
+    yield from _overlaps(run, time, truth, level, () if apart else context.movers)
+
+
+def _sampling(time: Float, rate: float, period: float) -> Iterator[str]:
+    step = max(1, round(1 / (rate * period))) * period
+    spans = np.diff(time)
+    if time[0] != 0 or (len(spans) and (spans.max() > step + 1e-6 or (spans[:-1] < step - 1e-6).any())):
+        yield "samples are missing"
+
+
+def _pushed(run: FinishedRun, time: Float, robots: int) -> Bool:
+    """bool[T,n]: a contact may have pushed the robot before the sample."""
+    pushed = np.zeros((len(time), robots), bool)
+    if not run.has("contact_time"):
+        return pushed
+    when, pairs = run.channel("contact_time"), run.channel("contact")
+    first = np.searchsorted(time, when - 1e-9)
+    last = np.searchsorted(time, when + PUSHED_S + WINDOW_S, side="right")
+    for column in (0, 1):
+        here = (pairs[:, column] >= 0) & (pairs[:, column] < robots)
+        for begin, end, robot in set(zip(first[here], last[here], pairs[here, column], strict=True)):
+            pushed[begin:end, robot] = True
+    return pushed
+
+
+def _speeds(time: Float, truth: Float, pushed: Bool, fleet: Fleet, excess: float) -> Iterator[str]:
+    """Mean speeds and turn rates over a second, or over one step of recordings with fewer samples."""
+    steps = max(1, int(np.searchsorted(time, time[0] + WINDOW_S)))
+    if len(time) <= steps:
+        steps = len(time) - 1
+    if steps < 1:
+        return
+    spans = (time[steps:] - time[:-steps])[:, None]
+    moved = np.hypot(*np.moveaxis(np.diff(truth[..., :2], axis=0), -1, 0))
+    turned = np.abs(wrapped(np.diff(truth[..., 2], axis=0)))
+    models = fleet.robots
+    for what, way, limit, always in (
+        ("moves", moved, np.array([robot.max_speed for robot in models]), NUDGE),
+        ("turns", turned, np.array([robot.max_turn_rate for robot in models]), TURN),
+    ):
+        total = np.cumsum(np.vstack([np.zeros(len(models)), way]), axis=0)
+        far = (total[steps:] - total[:-steps] > excess * limit * spans + always) & ~pushed[steps:]
+        if far.any():
+            sample, robot = np.argwhere(far)[0]
+            yield f"{fleet.names[robot]} {what} at {time[sample + steps]:g} s faster than its limits allow"
+
+
+def _walls(world: World, names: tuple[str, ...], time: Float, place: Float, level: Int16) -> Iterator[str]:
+    """Centres of robots that go through walls, obstacles or blocked cells. Equal steps of robots are judged once."""
+    for index, layer in enumerate(world.levels):
+        on = (level[:-1] == index) & (level[1:] == index) & (place[1:] != place[:-1]).any(axis=2)
+        sample, robot = np.nonzero(on)
+        if not len(sample):
+            continue
+        start, end = place[sample, robot], place[sample + 1, robot]
+        near = _near(layer, start, end)
+        crossing = np.flatnonzero(near)[~has_clearance(layer, start[near], end[near], 0.0)]
+        if len(crossing):
+            first = int(crossing[0])
+            yield f"{names[robot[first]]} goes through a wall at {time[sample[first]]:g} s"
+            return
+
+
+def _near(layer: object, start: Float, end: Float) -> Bool:
+    """bool[k]: a step may touch something solid: a disc around each square of the plane is tested once."""
+    side = 0.25
+    reach = float(np.hypot(*(end - start).T).max())
+    square, back = np.unique(np.floor(start / side).astype(np.int64), axis=0, return_inverse=True)
+    centre = (square + 0.5) * side
+    clear = has_clearance(layer, centre, centre, side + reach)  # type: ignore[arg-type]
+    near: Bool = ~clear[back.reshape(-1)]
+    return near
+
+
+def _levels(world: World, names: tuple[str, ...], time: Float, place: Float, level: Int16) -> Iterator[str]:
+    """Robots change levels in lifts only."""
+    sample, robot = np.nonzero(level[1:] != level[:-1])
+    for index, who in zip(sample.tolist(), robot.tolist(), strict=True):
+        here = place[index + 1, who]
+        if not any(np.hypot(*(here - (lift.x, lift.y))) <= np.hypot(lift.width, lift.depth) / 2 for lift in world.lifts):
+            yield f"{names[who]} changes levels at {time[index + 1]:g} s outside of a lift"
+            return
+
+
+def _overlaps(
+    run: FinishedRun, time: Float, truth: Float, level: Int16, movers: tuple[Mover, ...]
+) -> Iterator[str]:
+    """Bodies that overlap where the simulator reports no contact."""
+    fleet = run.context.fleet
+    names, radius = fleet.names, np.array([inscribed_radius(robot) for robot in fleet.robots])
+    sample, one, other = _overlapping(truth[..., :2], level, radius)
+    reported = _reported(run, time)
+    for at, first, second in zip(sample.tolist(), one.tolist(), other.tolist(), strict=True):
+        if (at, min(first, second), max(first, second)) not in reported:
+            yield f"{names[first]} and {names[second]} overlap at {time[at]:g} s, and no contact is reported"
+            return
+    if movers and run.has("mover"):
+        yield from _run_into(run, time, truth, level, movers, radius, reported)
+
+
+def _run_into(
+    run: FinishedRun,
+    time: Float,
+    truth: Float,
+    level: Int16,
+    movers: tuple[Mover, ...],
+    radius: Float,
+    reported: set[tuple[int, int, int]],
+) -> Iterator[str]:
+    names, mover, mover_level = run.context.fleet.names, run.channel("mover"), run.channel("mover_level")
+    for index, body in enumerate(movers):
+        gap = np.hypot(*np.moveaxis(truth[..., :2] - mover[:, None, index, :2], -1, 0)) - radius - body.radius
+        touching = (gap < -2 * DEPTH) & (level == mover_level[:, index, None])
+        for at, robot in np.argwhere(touching).tolist():
+            if (at, robot, len(names) + index) not in reported:
+                who = run.context.mover_names[index]
+                yield f"{names[robot]} and {who} overlap at {time[at]:g} s, and no contact is reported"
+                return
+
+
+def _overlapping(place: Float, level: Int16, radius: Float) -> tuple[Int, Int, Int]:
+    """Sample and robots of each overlap; neighbours are compared in order of x, as far apart as they can touch."""
+    order = np.argsort(place[..., 0], axis=1, kind="stable")
+    x, y = (np.take_along_axis(place[..., axis], order, axis=1) for axis in (0, 1))
+    level, radius = np.take_along_axis(level, order, axis=1), radius[order]
+    found = []
+    for apart in range(1, place.shape[1]):
+        dx = x[:, apart:] - x[:, :-apart]
+        if dx.min(initial=np.inf) >= 2 * radius.max() - DEPTH:
+            break
+        gap = np.hypot(dx, y[:, apart:] - y[:, :-apart]) - radius[:, apart:] - radius[:, :-apart]
+        sample, left = np.nonzero((gap < -DEPTH) & (level[:, apart:] == level[:, :-apart]))
+        found.append((sample, order[sample, left], order[sample, left + apart]))
+    if not found:
+        nothing: Int = np.zeros(0, np.int64)
+        return nothing, nothing, nothing
+    sample, one, other = (np.concatenate(column) for column in zip(*found, strict=True))
+    return sample, one, other
+
+
+def _reported(run: FinishedRun, time: Float) -> set[tuple[int, int, int]]:
+    """Sample, robot and what it touched, of each contact; a contact counts for the samples on both sides of it."""
+    if not run.has("contact_time"):
+        return set()
+    when, pairs = run.channel("contact_time"), run.channel("contact")
+    after = np.searchsorted(time, when - 1e-9)
+    return {
+        (int(at) + step, int(one), int(other))
+        for at, (one, other) in zip(after, np.sort(pairs, axis=1), strict=True)
+        for step in (-1, 0, 1)
+    }
+
+
+def inscribed_radius(robot: RobotModel) -> float:
+    """Metres: the largest disc around the centre of rotation that is inside the footprint; 0 if that is outside."""
+    corners = robot.footprint
+    after = np.roll(corners, -1, axis=0)
+    cross = corners[:, 0] * after[:, 1] - corners[:, 1] * after[:, 0]
+    if not ((cross >= 0).all() or (cross <= 0).all()):
+        return 0.0
+    return float(min(point_segment_distance(np.zeros((1, 2)), a, b)[0] for a, b in zip(corners, after, strict=True)))
