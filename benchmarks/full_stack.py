@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import Any
 
 import attrs
+from mrpbench_core.engine.pipeline import Observers, execute
 
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.pipeline import Observers, execute
 from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.store.paths import RunPaths
 

@@ -14,8 +14,9 @@ import time
 from pathlib import Path
 from typing import Any
 
-from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.observers import Observers
+
+from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.run import execute
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording

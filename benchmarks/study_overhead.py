@@ -12,8 +12,8 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.run import execute
 from mrpbench_core.engine.processes.slots import slots_of_this_process
+from mrpbench_core.engine.run import execute
 from mrpbench_core.engine.study.options import StudyOptions
 from mrpbench_core.engine.study.reading import read_study
 from mrpbench_core.engine.study.study import run_study
@@ -72,7 +72,7 @@ def executed(folder: Path, runs: int) -> float:
     points = load_study(described(folder, runs)).runs
     began = time.process_time()
     for point in points:
-        execute(point.config, point.run_id, paths, lambda stage, facts: None)  # noqa: ARG005
+        execute(point.config, point.run_id, paths)
     return (time.process_time() - began) / runs
 
 

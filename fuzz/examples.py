@@ -14,8 +14,8 @@ from mrpbench_exporters_rosbag2.exporter import Rosbag2
 from mrpbench_exporters_rosbag2.writer import QuickWriter
 
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.run import execute
 from mrpbench_core.engine.record import StoredRecord
+from mrpbench_core.engine.run import execute
 from mrpbench_core.files.jsonl import line
 from mrpbench_core.files.scenario import write_scenario
 from mrpbench_core.store.paths import RunPaths

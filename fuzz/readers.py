@@ -30,12 +30,12 @@ from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.analysis.observed_run import Sampling, observe, observe_own
 from mrpbench_core.engine.processes.slots import slots_of_this_process
-from mrpbench_core.referee.measuring import describe, measure_recording
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.files.scenario import read_scenario
 from mrpbench_core.files.tasks import read_tasks
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.worlds.world import World
+from mrpbench_core.referee.measuring import describe, measure_recording
 from mrpbench_core.report.data import write_estimates
 from mrpbench_core.report.folder_comparison import compare_folders
 from mrpbench_core.report.html.page import write_report

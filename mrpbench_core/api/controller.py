@@ -81,7 +81,9 @@ class FleetControllerSession:
                     f"the controller {self._name} returned {command!r} for robot {robot} {expected}"
                 ) from None
             if not np.isfinite(twist[row]).all():
-                raise BrokenContractError(f"the controller {self._name} returned {command!r} for robot {robot}", "controller")
+                raise BrokenContractError(
+                    f"the controller {self._name} returned {command!r} for robot {robot}", "controller"
+                )
         return twist
 
     def clear(self, robot: int) -> None:

@@ -6,7 +6,9 @@ from pathlib import Path
 from mrpbench_core.cli.input.arguments import add_configuration, split_words
 from mrpbench_core.config.study import load_studies
 from mrpbench_core.engine.processes.call import in_worker
+from mrpbench_core.engine.stage import ignore
 from mrpbench_core.engine.stages.prepare import build_run_instance
+from mrpbench_core.engine.stages.question import Question
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.scenario import write_scenario
 from mrpbench_core.files.text import counted
@@ -38,7 +40,7 @@ def write(words: list[str], name: str) -> list[str]:
     studies = load_studies(files, overrides)
     drawn: dict[str, Scenario] = {}
     for point in (point for study in studies for point in study.runs):
-        scenario = build_run_instance(point.config, lambda stage, facts: None).scenario  # noqa: ARG005
+        scenario = build_run_instance(Question.of(point.config), ignore).scenario
         drawn.setdefault(scenario.id, scenario)
     target = Path(name)
     written = []

@@ -184,7 +184,9 @@ def _place(root: Item, key: str) -> Item:
 
 def _is_set(value: Any) -> bool:
     """Tell whether a setting differs from having none."""
-    return bool(value) if isinstance(value, bool | Mapping | tuple) else value not in (None, "none", Noise(), Replanning())
+    return (
+        bool(value) if isinstance(value, bool | Mapping | tuple) else value not in (None, "none", Noise(), Replanning())
+    )
 
 
 def _has_lidar(entry: FleetEntry) -> bool:

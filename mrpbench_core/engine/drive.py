@@ -20,6 +20,7 @@ from mrpbench_core.engine.stages.execute import execute_plan
 from mrpbench_core.engine.stages.plan import LATE_S, budget_of, call_planner
 from mrpbench_core.engine.stages.tasks import places_of, start_stream
 from mrpbench_core.files.printing import printable
+from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import Path as RobotPath
 from mrpbench_core.model.planning.plan import Plan, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
@@ -164,7 +165,7 @@ def _context(inputs: RunInputs, instance: Instance, result: PlanResult, *, execu
     config = inputs.config
     result = attrs.evolve(result, history=())  # wall times are in the record, and recordings are reproducible
     assigned = instance.tasks_of(result.plan if executes else None)
-    routes = ()
+    routes: tuple[Route, ...] = ()
     if executes and result.plan is not None:
         routes = tuple(instance.router(assigned, config.plan_filter)(result.plan))
     return RunContext(

@@ -32,7 +32,12 @@ class Prepared:
 
 
 def record_of(
-    asked: Asked, prepared: Prepared, claims: Claims, paths: RunPaths, metrics: Mapping[str, Metric]
+    asked: Asked,
+    prepared: Prepared,
+    claims: Claims,
+    paths: RunPaths,
+    metrics: Mapping[str, Metric],
+    instances: InstanceFolder,
 ) -> RunRecord:
     """Judge a run, and return its record.
 
@@ -42,6 +47,7 @@ def record_of(
         claims: of the process in which it ran.
         paths: with its recording, unless it ended before.
         metrics: to measure, of this project only.
+        instances: the folder with the instance.
 
     Raises:
         OSError: a file cannot be read or written.
@@ -57,7 +63,7 @@ def record_of(
     )
     verdict = Verdict(ending=claims.ending)
     if claims.recorded:
-        recording = Recording(paths.recording, InstanceFolder(paths.instances))
+        recording = Recording(paths.recording, instances)
         try:
             verdict = judge(asked, recording, metrics, claims.ending)
             record.executed = asked.executes and "time" in recording.channels

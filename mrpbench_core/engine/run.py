@@ -27,7 +27,8 @@ def execute(
         InputError: the configuration does not fit its world, robots or files.
     """
     try:
-        prepared, instance = prepare(Question.of(config), config.scenario.gives_goals, paths, announce)
+        instances = InstanceFolder(paths.instances)
+        prepared, instance = prepare(Question.of(config), config.scenario.gives_goals, instances, announce)
     except RunEnded as ended:
         return ended_before(run_id, ended)
     inputs = RunInputs(
@@ -40,13 +41,13 @@ def execute(
     )
     claims = drive(inputs, instance)
     announce(Stage.METRICS, {})
-    record = record_of(asked_of(config, run_id), prepared, claims, paths, config.metrics)
+    record = record_of(asked_of(config, run_id), prepared, claims, paths, config.metrics, instances)
     keep(record, paths, config.recording.keep)
     return record
 
 
 def prepare(
-    question: Question, gives_goals: bool, paths: RunPaths, announce: Announce
+    question: Question, gives_goals: bool, instances: InstanceFolder, announce: Announce
 ) -> tuple[Prepared, Instance]:
     """Make the instance of a run, and store it.
 
@@ -59,7 +60,7 @@ def prepare(
     assigned, moved = instance.assigned, 0
     if assigned is not None and gives_goals and question.tasks is None:
         moved = sum(task != robot for robot, task in enumerate(assigned))
-    name = InstanceFolder(paths.instances).write(instance)
+    name = instances.write(instance)
     return (
         Prepared(scenario_id=instance.scenario.id, instance=name, reassigned=moved, timing=timing),
         instance,

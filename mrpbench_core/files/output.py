@@ -1,5 +1,6 @@
 """Write whole files: a reader sees the old content or the new one, never a part."""
 
+import ctypes
 import os
 import stat
 from contextlib import suppress
@@ -7,6 +8,8 @@ from pathlib import Path
 from typing import BinaryIO
 
 from mrpbench_core.files.errors import InputError
+
+_LIBC = ctypes.CDLL(None, use_errno=True)
 
 
 def create_file(file: Path) -> BinaryIO:
@@ -28,6 +31,22 @@ def sync_folder(folder: Path) -> None:
     descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
         os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def sync_file_system(folder: Path) -> None:
+    """Return when everything that was written to the file system of a folder is on disk (`syncfs(2)`).
+
+    One call takes as long as that for a single file, however many files there are.
+
+    Raises:
+        OSError: it cannot be written.
+    """
+    descriptor = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        if _LIBC.syncfs(descriptor):
+            raise OSError(ctypes.get_errno(), os.strerror(ctypes.get_errno()), str(folder))
     finally:
         os.close(descriptor)
 

@@ -129,4 +129,3 @@ def load_hooks() -> Hooks:
     for provider in enabled_hooks():
         hooks.load(provider)
     return hooks
-

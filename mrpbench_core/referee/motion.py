@@ -137,14 +137,14 @@ def _levels(world: World, names: tuple[str, ...], time: Float, place: Float, lev
     sample, robot = np.nonzero(level[1:] != level[:-1])
     for index, who in zip(sample.tolist(), robot.tolist(), strict=True):
         here = place[index + 1, who]
-        if not any(np.hypot(*(here - (lift.x, lift.y))) <= np.hypot(lift.width, lift.depth) / 2 for lift in world.lifts):
+        if not any(
+            np.hypot(*(here - (lift.x, lift.y))) <= np.hypot(lift.width, lift.depth) / 2 for lift in world.lifts
+        ):
             yield f"{names[who]} changes levels at {time[index + 1]:g} s outside of a lift"
             return
 
 
-def _overlaps(
-    run: FinishedRun, time: Float, truth: Float, level: Int16, movers: tuple[Mover, ...]
-) -> Iterator[str]:
+def _overlaps(run: FinishedRun, time: Float, truth: Float, level: Int16, movers: tuple[Mover, ...]) -> Iterator[str]:
     """Bodies that overlap where the simulator reports no contact."""
     fleet = run.context.fleet
     names, radius = fleet.names, np.array([inscribed_radius(robot) for robot in fleet.robots])

@@ -10,9 +10,9 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.planner import Promise
-from mrpbench_core.referee.plans import Promises
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
+from mrpbench_core.referee.plans import Promises
 
 _name = functools.cache(str)  # NumPy takes 15 µs to spell a type
 

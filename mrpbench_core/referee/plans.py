@@ -36,7 +36,9 @@ class Promises:
         kept = frozenset(planner.kept_promises)
         for promise, name in ((Promise.BOUNDED, "suboptimality"), (Promise.ROBUST, "robustness")):
             if promise in kept and getattr(type(planner), name) is getattr(Planner, name):
-                raise InputError(f"planner: {type(planner).__name__} promises `{promise}`, so it must override `{name}`")
+                raise InputError(
+                    f"planner: {type(planner).__name__} promises `{promise}`, so it must override `{name}`"
+                )
         return cls(
             kept=kept,
             factor=float(planner.suboptimality) if Promise.BOUNDED in kept else 1.0,

@@ -68,10 +68,14 @@ def judge(asked: Asked, recording: Recording, metrics: Mapping[str, Metric], sai
                 return _broken(f"the recording has another {name} than the configuration")
         result, fault = judge_plan(asked.promises, instance.problem, recorded.claimed)
         if fault is not None:
-            return Verdict(ending=_ending(RunStatus.PLAN_INVALID, Stage.PLANNING, f"{fault} ({asked.title('planner')})"))
+            return Verdict(
+                ending=_ending(RunStatus.PLAN_INVALID, Stage.PLANNING, f"{fault} ({asked.title('planner')})")
+            )
         if result.plan is None and said is not None and said.status == RunStatus.PLAN_INVALID:
             message = f"{said.message} ({asked.title('planner')})"
-            return Verdict(ending=attrs.evolve(said, message=message))  # what the planner returned could not be recorded
+            return Verdict(
+                ending=attrs.evolve(said, message=message)
+            )  # what the planner returned could not be recorded
         summary = {} if asked.tasks else plan_summary(asked.promises, instance.problem, result)
         run = _finished(recording, result, asked)
         if result.plan is None:
@@ -161,5 +165,3 @@ def _ending(status: RunStatus, stage: Stage, message: str) -> Ending:
 
 def _broken(message: str) -> Verdict:
     return Verdict(ending=_ending(RunStatus.CONTRACT_BROKEN, Stage.METRICS, message))
-
-

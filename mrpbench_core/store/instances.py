@@ -85,7 +85,7 @@ class InstanceFolder:
             goals=tuple(None if _is_anywhere(goals, vertices) else goals for goals in instance.problem.goals),
             features=instance.problem.features,
         )
-        return self._put(json.dumps(encode(stored, _text_of)).encode(), "json")
+        return self._put(json.dumps(encode(stored, inlined)).encode(), "json")
 
     def read(self, name: str) -> Instance:
         """Return the instance of a name.
@@ -95,7 +95,7 @@ class InstanceFolder:
         """
         file = self.path / f"{name}.json"
         try:
-            stored = decode(json.loads(self._content(file)), Assignment, _array_of)
+            stored = decode(json.loads(self._content(file)), Assignment, inlined_array)
             site = self.site(stored.site)
             anywhere = (tuple(range(len(site.roadmap.position))),)
             goals = tuple(anywhere if goal is None else goal for goal in stored.goals)
@@ -200,11 +200,17 @@ def _unzipped(content: bytes) -> Site:
         return decode(data, Site, lambda name: read_array(read_entry(archive, archive.getinfo(name))))
 
 
-def _text_of(array: NDArray[Any]) -> str:
-    return f"{array.dtype.str} {json.dumps(array.shape)} {base64.b64encode(np.ascontiguousarray(array)).decode()}"
+def inlined(array: NDArray[Any]) -> str:
+    """An array as text, for JSON."""
+    return f"{array.dtype.str} {json.dumps(array.shape)} {base64.b64encode(array.tobytes()).decode()}"
 
 
-def _array_of(text: str) -> NDArray[Any]:
+def inlined_array(text: str) -> NDArray[Any]:
+    """The array that `inlined` turned into text.
+
+    Raises:
+        ValueError: it is something else.
+    """
     dtype, rest = text.split(" ", 1)
     shape, data = rest.rsplit(" ", 1)
     return np.frombuffer(base64.b64decode(data), np.dtype(dtype)).reshape(json.loads(shape))

@@ -29,11 +29,13 @@ from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.routes import RouteHistory
 from mrpbench_core.model.runs.routing import PlanFilter, ends_of
 from mrpbench_core.model.runs.run import RunContext
-from mrpbench_core.store.instances import InstanceFolder
+from mrpbench_core.store.instances import InstanceFolder, inlined, inlined_array
 from mrpbench_core.store.paths import instances_of
 
 FORMAT, INLINE = 2, 1
 """Formats of recordings that name an instance, and of those that hold everything: of other fleets, and older ones."""
+SMALL = 1 << 14
+"""Bytes of an array of the context that is stored in its JSON."""
 RATIO = 200
 """Largest size of a recording in memory, as a multiple of its file. Robots that stand are compressed most."""
 UNBOUNDED = 256 * 2**20
@@ -135,7 +137,7 @@ class RecordingWriter:
         if instance is None:
             header: dict[str, Any] = {"format": INLINE, "context": encode(context, self._keep)}
         else:
-            header = {"format": FORMAT, "instance": instance, "context": encode(RecordedRun.of(context), self._keep)}
+            header = {"format": FORMAT, "instance": instance, "context": encode(RecordedRun.of(context), self._inline)}
         self._put("context.json", json.dumps(header).encode())
 
     def _keep(self, array: NDArray[Any]) -> str:
@@ -143,6 +145,10 @@ class RecordingWriter:
         self._arrays += 1
         self._put(name, _npy(array))
         return name
+
+    def _inline(self, array: NDArray[Any]) -> str:
+        """Small arrays are part of the context: most runs that only plan have no others."""
+        return inlined(array) if array.nbytes <= SMALL else self._keep(array)
 
     def _put(self, name: str, content: bytes) -> None:
         """Add a file without a date, so that equal recordings are equal byte by byte."""
@@ -244,6 +250,9 @@ class Recording:
     def _read(self, name: str) -> bytes:
         return read_entry(self._zip, self._zip.getinfo(name))
 
+    def _fetch(self, name: str) -> NDArray[Any]:
+        return self._load(name) if name.startswith("context/") else inlined_array(name)
+
     def _load(self, name: str) -> NDArray[Any]:
         with self._naming(f"is damaged: {name!r:.60}"):
             return read_array(self._read(name))
@@ -254,14 +263,12 @@ class Recording:
 
     @cached_property
     def _first_context(self) -> RunContext:
-        if self.instance_name is None:
-            with self._naming("is damaged: its context"):
-                context = decode(self._context, RunContext, self._load)
-        else:
-            recorded, instance = self.recorded_run(), self.instance()
+        if self.instance_name is not None:
+            recorded, instance = self._recorded_run, self._instance
             with self._naming("is damaged: its plan"):
-                context = recorded.context(instance)
+                return recorded.context(instance)
         with self._naming("is damaged: its context"):
+            context = decode(self._context, RunContext, self._load)
             fault = check_context(context)
         if fault is not None:
             raise self._fault(f"its context: {fault}")
@@ -269,15 +276,19 @@ class Recording:
 
     def recorded_run(self) -> RecordedRun:
         """What was planned and claimed."""
-        if self.instance_name is None:
-            return RecordedRun.of(self.first_context())
+        return RecordedRun.of(self.first_context()) if self.instance_name is None else self._recorded_run
+
+    @cached_property
+    def _recorded_run(self) -> RecordedRun:
         with self._naming("is damaged: its plan"):
-            return decode(self._context, RecordedRun, self._load)
+            return decode(self._context, RecordedRun, self._fetch)
 
     def instance(self) -> Instance:
         """What the run is about."""
-        if self.instance_name is None:
-            return self.first_context().instance
+        return self.first_context().instance if self.instance_name is None else self._instance
+
+    @cached_property
+    def _instance(self) -> Instance:
         return self._instances.read(str(self.instance_name))
 
     def context(self) -> RunContext:

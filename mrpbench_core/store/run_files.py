@@ -8,36 +8,22 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.output import sync_folder
 from mrpbench_core.store.paths import RunPaths
 
 
 def seal(paths: RunPaths, *, recording: bool = True) -> list[str]:
-    """Bring the exports of a run to disk, and its recording unless it is not kept.
+    """Name the exports of a run, and its recording unless it is not kept.
 
     Returns:
         SHA-256 and name in the results folder of each file, as `sha256sum` writes and checks them.
 
     Raises:
-        OSError: a file cannot be read or written.
+        OSError: a file cannot be read.
     """
     kept = [paths.recording] if recording and paths.recording.is_file() else []
-    exported, folders = _tree(paths.exports)
-    lines = [f"{_sealed(file)}  recordings/{file.name}" for file in kept]
-    lines += [f"{_sealed(file)}  exports/{file.relative_to(paths.exports.parent)}" for file in exported]
-    for folder in folders:
-        sync_folder(folder)
-    return lines
-
-
-def sync_names(folder: Path) -> None:
-    """Bring the names of recordings and exports in a results folder to disk.
-
-    Raises:
-        OSError: they cannot be written.
-    """
-    for part in ("recordings", "exports"):
-        sync_folder(folder / part)
+    lines = [f"{digest(file)}  recordings/{file.name}" for file in kept]
+    exported = _files(paths.exports)
+    return lines + [f"{digest(file)}  exports/{file.relative_to(paths.exports.parent)}" for file in exported]
 
 
 def digest(file: Path) -> str:
@@ -71,26 +57,19 @@ def _named(record: Mapping[str, Any]) -> Iterator[str]:
         yield from (line for line in record["provenance"]["files"] if isinstance(line, str))
 
 
-def _tree(folder: Path) -> tuple[list[Path], list[Path]]:
-    """All files and folders from a folder on, without symbolic links and whatever else a plugin left there.
+def _files(folder: Path) -> list[Path]:
+    """All files from a folder on, without symbolic links and whatever else a plugin left there.
 
     A line of a record cannot hold each name that a file may have: those that cannot be printed are left out, and so are
     those of paths that are too long.
     """
-    files, folders, waiting = [], [], [folder] if folder.is_dir() else []
+    files, waiting = [], [folder] if folder.is_dir() else []
     while waiting:  # `os.walk` calls itself for each level
         here = waiting.pop()
         with suppress(OSError), os.scandir(here) as found:
-            folders.append(here)
             for entry in filter(lambda entry: entry.name.isprintable(), found):
                 if entry.is_dir(follow_symlinks=False):
                     waiting.append(here / entry.name)
                 elif entry.is_file(follow_symlinks=False):
                     files.append(here / entry.name)
-    return sorted(files), folders
-
-
-def _sealed(file: Path) -> str:
-    with file.open("rb") as stream:
-        os.fsync(stream.fileno())
-        return file_digest(stream, "sha256").hexdigest()
+    return sorted(files)

@@ -1,9 +1,9 @@
 """Failures name the plugin and the distribution that they are of."""
 
 import pytest
+from mrpbench_core.engine.origins import owner_of, title, with_origin
 
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.origins import owner_of, title, with_origin
 from mrpbench_core.engine.processes.worker import describe
 
 STUDY = {"world": "office", "scenario": {"plugin": "random", "robots": 2}, "planner": "example"}

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from mrpbench_core.engine.observers import Observers
 
 from mrpbench_core import run
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.run import execute
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording

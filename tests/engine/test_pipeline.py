@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mrpbench_core.engine.observers import Observers
 
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.observers import Observers
 from mrpbench_core.engine.run import execute
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.scenario import write_scenario

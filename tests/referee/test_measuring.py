@@ -8,9 +8,9 @@ import pytest
 from mrpbench_metrics_standard.planning import Planning
 
 from mrpbench_core.api import Column, Metric
-from mrpbench_core.referee.measuring import measure
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.runs.run import FinishedRun
+from mrpbench_core.referee.measuring import measure
 
 
 @attrs.frozen(kw_only=True)

@@ -66,5 +66,7 @@ class ControllerServer:
             wrong = ~finite.all(axis=1) & ~missing
             if wrong.any():
                 row = int(wrong.argmax())
-                raise BrokenContractError(f"{subject} returned {command[row].tolist()} for robot {robots[row]}", "controller")
+                raise BrokenContractError(
+                    f"{subject} returned {command[row].tolist()} for robot {robots[row]}", "controller"
+                )
         return missing

@@ -20,10 +20,10 @@ from mrpbench_core.engine.analysis.observed_run import ObservedRun, Sampling, ob
 from mrpbench_core.engine.loading.versions import with_versions
 from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.engine.record import RunError, RunRecord, StoredRecord
-from mrpbench_core.referee.measuring import describe, measure
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.jsonl import Writer, line
 from mrpbench_core.files.links import followed
+from mrpbench_core.files.output import sync_file_system
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.files.scenario import read_scenario
 from mrpbench_core.model.common.fleet import Fleet
@@ -32,12 +32,13 @@ from mrpbench_core.model.runs.routes import with_latest_routes
 from mrpbench_core.model.runs.run import FinishedRun, RunContext
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.plugins.provenance import provenance
+from mrpbench_core.referee.measuring import describe, measure
 from mrpbench_core.store.folder import ResultsFolder, new_invocation
 from mrpbench_core.store.invocation import write_document
 from mrpbench_core.store.lock import locked
 from mrpbench_core.store.recording import RecordingWriter
 from mrpbench_core.store.results import Results
-from mrpbench_core.store.run_files import seal, sync_names
+from mrpbench_core.store.run_files import seal
 
 BLOCK = 2**20
 UNIDENTIFYING = ("name", "metrics", "simulator")
@@ -234,7 +235,7 @@ def _keep(analysis: Analysis, found: ObservedRun, record: StoredRecord) -> Store
             raise
         writer.close()
         record.run.files = seal(paths)
-        sync_names(folder.path)
+        sync_file_system(folder.path)
         digest = write_document(folder.invocation(invocation), _facts(analysis, record, invocation))
         record = attrs.evolve(record, invocation=f"{digest}  invocations/{invocation}.yaml")
         with Writer(folder.shard(invocation), exclusive=True) as shard:

@@ -323,9 +323,7 @@ class ExecutionLoop:
             )
             recorder.sample(self._step, sample, last)
         if inputs.hooks.has("mrpbench_stepped"):
-            inputs.hooks.call(
-                "mrpbench_stepped", now=now, state=state, observation=observation, routes=self._routes
-            )
+            inputs.hooks.call("mrpbench_stepped", now=now, state=state, observation=observation, routes=self._routes)
 
     def _simulate(self) -> None:
         """Let one control period pass."""

@@ -10,7 +10,6 @@ from mrpbench_core.config.settings import Replanning, RunConfig
 from mrpbench_core.engine.execution.commitments import commitments, not_ahead, remaining
 from mrpbench_core.engine.execution.cutting import driven, without
 from mrpbench_core.engine.execution.destinations import Destinations
-from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.execution.route import Route
@@ -19,6 +18,7 @@ from mrpbench_core.model.planning.problem import Feature, Problem, ends_of, feat
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.type2_edges import moves_of
 from mrpbench_core.model.planning.window import leads_to_goals
+from mrpbench_core.model.runs.routing import Router
 
 RETRY_S = 1.0
 """Simulated seconds after which a planner that found no new plan is asked again, unless the settings say more."""

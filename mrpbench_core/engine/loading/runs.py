@@ -11,8 +11,8 @@ from mrpbench_core.config.shared import Shared
 from mrpbench_core.config.study import RunData, RunPoint, Study, load_study
 from mrpbench_core.engine.asking import facts_of_run
 from mrpbench_core.engine.loading.versions import code_of
-from mrpbench_core.referee.measuring import describe
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.referee.measuring import describe
 
 
 @attrs.frozen(kw_only=True)

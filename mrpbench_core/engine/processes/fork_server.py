@@ -1,6 +1,9 @@
 """A fork server: a process that has imported the plugins of a configuration, and forks a fresh process for each run.
 
 Each run starts from the same state: what the plugins did when they were imported, and nothing that another run did.
+
+A *resident* server imports no plugins of others and executes its jobs itself, one after another, because a process for
+each would take longer than most of these jobs.
 """
 
 import functools
@@ -22,8 +25,8 @@ from mrpbench_core.config.unpacking import Unpacking
 from mrpbench_core.engine.processes.channel import Channel, ClosedError, GarbledError, new_key
 from mrpbench_core.engine.processes.output import flush, redirect
 from mrpbench_core.engine.processes.process_tree import end_with_parent
-from mrpbench_core.engine.processes.warm_up import warm_up
 from mrpbench_core.engine.processes.steps import State
+from mrpbench_core.engine.processes.warm_up import warm_up
 from mrpbench_core.plugins.hooks import load_hooks
 from mrpbench_core.plugins.importing import tell_imports
 
@@ -39,10 +42,14 @@ class ForkServer:
     def __init__(self, pid: int, connection: socket.socket, key: bytes) -> None:
         self.pid = pid
         self.connection = connection
+        self.jobs = 0
+        """The number of jobs that it was given."""
         self._channel = Channel(connection, key)
 
     @classmethod
-    def start(cls, job: Mapping[str, Any], execute: Execute, inherited: Sequence[socket.socket]) -> Self:
+    def start(
+        cls, job: Mapping[str, Any], execute: Execute, inherited: Sequence[socket.socket], *, resident: bool
+    ) -> Self:
         """Start a server for jobs with the plugins of `job`; it closes the sockets that it inherits.
 
         These must be all of this process, also those of other servers: a server ends when its connection has no other
@@ -56,7 +63,7 @@ class ForkServer:
                 end_with_parent(parent)
                 for connection in (ours, *inherited):
                     connection.close()
-                _serve(theirs, Channel(theirs, key), job, execute)
+                _serve(theirs, Channel(theirs, key), job, execute, resident)
             except BaseException:  # noqa: BLE001 - as below
                 with suppress(Exception):  # a plugin closed standard error
                     traceback.print_exc()
@@ -69,10 +76,11 @@ class ForkServer:
         """Readable when there is a message, or the server has ended."""
         return self.connection.fileno()
 
-    def fork(self, connection: socket.socket) -> None:
-        """Fork a process that executes the job of `connection`."""
+    def fork(self, connection: socket.socket, instance: str = "") -> None:
+        """Fork a process that executes the job of `connection`, with an instance that is read before."""
+        self.jobs += 1
         with suppress(OSError):  # it has ended, which `receive` tells
-            socket.send_fds(self.connection, [b"f"], [connection.fileno()])
+            socket.send_fds(self.connection, [instance.encode() or b"-"], [connection.fileno()])
 
     def receive(self, timeout_s: float | None = None) -> dict[str, Any] | None:
         """The next message: `importing`, a plugin or None; or `ended`, the wait status of the forked process.
@@ -95,14 +103,16 @@ class ForkServer:
         return os.waitpid(self.pid, 0)[1]
 
 
-def _serve(connection: socket.socket, channel: Channel, job: Mapping[str, Any], execute: Execute) -> NoReturn:
+def _serve(
+    connection: socket.socket, channel: Channel, job: Mapping[str, Any], execute: Execute, resident: bool
+) -> NoReturn:
     redirect(job["log"])
     for number in (signal.SIGTERM, signal.SIGINT):  # from outside, which is no exception of a plugin
         signal.signal(number, signal.SIG_DFL)
     os.setsid()  # Ctrl-C reaches the invoker only
     tell_imports(lambda plugin: channel.send({"importing": plugin}))
     state = State()
-    if "step" in job:
+    if "step" in job and not resident:
         warm_up()
     if job.get("step") == "drive":
         state.hooks = load_hooks()
@@ -114,9 +124,14 @@ def _serve(connection: socket.socket, channel: Channel, job: Mapping[str, Any], 
         words = np.frombuffer(os.urandom(4 * 624), np.uint32)
         np.random.set_state(("MT19937", words, 624, 0, 0.0))  # noqa: NPY002 - other random numbers for plugins in each process
         gc.freeze()  # collections in the forked processes then leave the shared memory alone
-        _, descriptors, _, _ = socket.recv_fds(connection, 1, 1)
+        name, descriptors, _, _ = socket.recv_fds(connection, _NAMES, 1)
         if not descriptors:  # the supervisor closed its end
             os._exit(0)
+        if resident:
+            execute(socket.socket(fileno=descriptors[0]), state, lambda: None)
+            channel.send({"ended": 0})
+            continue
+        state.read(name.decode())
         imported, writer = os.pipe()
         pid = os.fork()
         if pid == 0:

@@ -5,14 +5,20 @@ The process that judges is forked from a server in which no module of another di
 
 import json
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 from mrpbench_core.engine.stages.question import SETTINGS
+from mrpbench_core.store.paths import instances_of
 
 Message = dict[str, Any]
-Ask = Callable[[Mapping[str, Any], str], Message]
+Ask = Callable[[Message, str], Message]
 """Lets a process do a step that the fork server with this key forks, and returns its answer."""
+_NEEDED = {"prepare": SETTINGS, "judge": ("metrics",), "measure": ("metrics",)}
+"""The settings that a step needs; all if it is not named."""
+_LEFT_OUT = {"prepare": (), "drive": ("facts",), "judge": (), "measure": ("claims",)}
+"""The parts of a job that a step does not need."""
 OURS = "ours"
 """Key of the fork server in which no module of another distribution is imported."""
 
@@ -24,6 +30,8 @@ def run_in_steps(job: Message, ask: Ask) -> Message:
     if "prepared" not in answer:
         return answer
     job["prepared"] = answer["prepared"]
+    instances = instances_of(Path(job["recording"]))
+    job["instance_file"] = str(instances / f"{answer['prepared']['instance']}.json")
     answer = steps("drive", _key(job))
     if "claims" not in answer:
         return answer
@@ -49,8 +57,12 @@ class _Steps:
         self._ends = time.monotonic() + job["wall_s"]
 
     def __call__(self, step: str, plugins: str) -> Message:
+        job, config = self._job, self._job["parcel"]["config"]
+        told = {name: value for name, value in job.items() if name not in _LEFT_OUT[step]}
+        if step in _NEEDED:
+            told["parcel"] = {**job["parcel"], "config": {name: config[name] for name in _NEEDED[step]}}
         left = max(0.0, self._ends - time.monotonic())
-        return self._ask({**self._job, "step": step, "wall_s": left, "limit_s": self._job["wall_s"]}, plugins)
+        return self._ask({**told, "step": step, "wall_s": left}, plugins)
 
 
 def _unmeasured(metric: Message, answer: Message) -> tuple[Message, Message]:

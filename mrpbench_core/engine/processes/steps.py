@@ -10,6 +10,7 @@
 
 import time
 from collections.abc import Callable, Mapping
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,8 @@ from mrpbench_core.engine.run import ended_before, prepare
 from mrpbench_core.engine.stage import RunEnded, RunInputs
 from mrpbench_core.engine.stages.fleet import build_fleet
 from mrpbench_core.engine.stages.question import SETTINGS, Question
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.runs.instance import Instance
 from mrpbench_core.model.runs.status import Stage
 from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.plugins.provenance import title
@@ -52,13 +55,33 @@ class State:
     config: RunConfig | None = None
     """The configuration of the job, once it is known, to name the component that fails."""
     instances: InstanceFolder | None = None
-    """The last folder of instances."""
+    """The last folder of instances, with what of it is in memory."""
+    instance: tuple[Path, Instance] | None = None
+    """The instance that was read before the process was forked, and its file."""
 
-    def folder(self, paths: RunPaths) -> InstanceFolder:
-        """The instances beside a recording, with what of them is in memory."""
-        if self.instances is None or self.instances.path != paths.instances:
-            self.instances = InstanceFolder(paths.instances)
+    def folder(self, path: Path) -> InstanceFolder:
+        """A folder of instances."""
+        if self.instances is None or self.instances.path != path:
+            self.instances = InstanceFolder(path)
         return self.instances
+
+    def read(self, name: str) -> None:
+        """Read the instance of a job for the process that is forked for it."""
+        file = Path(name)
+        with suppress(InputError):  # which the job finds, too
+            if file.suffix and (self.instance is None or self.instance[0] != file):
+                self.instance = file, self.folder(file.parent).read(file.stem)
+
+    def instance_of(self, job: Job) -> Instance:
+        """The instance of a job.
+
+        Raises:
+            InputError: it is not here, or it is damaged.
+        """
+        file = Path(job["instance_file"])
+        if self.instance is not None and self.instance[0] == file:
+            return self.instance[1]
+        return self.folder(file.parent).read(file.stem)
 
     def settings(self, parcel: Mapping[str, Any], names: tuple[str, ...]) -> dict[str, Any]:
         """Some settings of a configuration, without the plugins of the others.
@@ -82,7 +105,8 @@ def _prepare(job: Job, channel: Channel, state: State) -> Answer:
     """Make the instance of a run."""
     question, gives_goals = state.question(job)
     try:
-        prepared, _ = prepare(question, gives_goals, _paths(job), _announcer(channel))
+        folder = state.folder(_paths(job).instances)
+        prepared, _ = prepare(question, gives_goals, folder, _announcer(channel))
     except RunEnded as ended:
         return {"record": jsonable(ended_before(job["run_id"], ended).message())}
     return {"prepared": attrs.asdict(prepared)}
@@ -94,7 +118,7 @@ def _drive(job: Job, channel: Channel, state: State) -> Answer:
     paths, prepared = _paths(job), Prepared(**job["prepared"])
     announce = _announcer(channel)
     announce(Stage.START, {"scenario_id": prepared.scenario_id})
-    instance = state.folder(paths).read(prepared.instance)
+    instance = state.instance_of(job)
     fleet = build_fleet(config.fleet, len(instance.fleet))  # recordings leave out the files of robots
     inputs = RunInputs(
         config=config,
@@ -114,7 +138,7 @@ def _judge(job: Job, channel: Channel, state: State) -> Answer:
     asked, paths = Asked.of_message({**job["facts"]["asked"], "run_id": job["run_id"]}), _paths(job)
     metrics = _metrics(job, state, {metric["number"] for metric in job["facts"]["others_metrics"]})
     claims, prepared = Claims.of_message(job["claims"]), Prepared(**job["prepared"])
-    record = record_of(asked, prepared, claims, paths, metrics)
+    record = record_of(asked, prepared, claims, paths, metrics, state.folder(paths.instances))
     keep(record, paths, job["keep"])
     return {"record": jsonable(record.message())}
 

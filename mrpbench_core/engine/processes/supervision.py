@@ -66,7 +66,7 @@ class Supervision:
         for source in (invoker, server):
             self._poll.register(source, select.POLLIN)
         self._poll.register(self._connection, 0)  # its end only
-        server.fork(theirs)
+        server.fork(theirs, job.get("instance_file", ""))
         theirs.close()
         with suppress(OSError, ClosedError):  # it has ended, which `run` finds
             self._connection.sendall(key)

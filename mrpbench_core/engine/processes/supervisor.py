@@ -11,7 +11,6 @@ import socket
 import sys
 import tempfile
 from collections import OrderedDict
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -20,13 +19,15 @@ from mrpbench_core.engine.processes.fork_server import ForkServer
 from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.engine.processes.output import cut, remove_empty
 from mrpbench_core.engine.processes.process_tree import become_subreaper, kill_descendants
-from mrpbench_core.engine.processes.run_steps import run_in_steps
+from mrpbench_core.engine.processes.run_steps import OURS, run_in_steps
 from mrpbench_core.engine.processes.supervision import Supervision
 from mrpbench_core.engine.processes.worker import execute_job
 from mrpbench_core.files.removal import remove_tree
 
 SERVERS = 5
 """Fork servers that are kept, the most recently used ones."""
+JOBS = 500
+"""Jobs after which the resident server is replaced by a fresh one."""
 
 
 class Supervisor:
@@ -78,13 +79,15 @@ class Supervisor:
         remove_empty(log)
         return answer
 
-    def _ask(self, job: Mapping[str, Any], plugins: str) -> dict[str, Any]:
-        """Let a process do a job that the fork server of these plugins forks."""
+    def _ask(self, job: dict[str, Any], plugins: str) -> dict[str, Any]:
+        """Let a process do a job that the fork server of these plugins forks, or the resident one itself."""
+        if plugins == OURS and plugins in self._servers and self._servers[plugins].jobs >= JOBS:
+            self._servers.pop(plugins).wait()
         if plugins not in self._servers:
             while len(self._servers) >= SERVERS:
                 self._servers.popitem(last=False)[1].wait()
             inherited = [self._connection, *(server.connection for server in self._servers.values())]
-            self._servers[plugins] = ForkServer.start(job, execute_job, inherited)
+            self._servers[plugins] = ForkServer.start(job, execute_job, inherited, resident=plugins == OURS)
         self._servers.move_to_end(plugins)
         pids = {server.pid for server in self._servers.values()}
         answer, serves = Supervision(job, self._invoker, self._servers[plugins], pids).run()

@@ -42,4 +42,3 @@ def assign(assigner: Assigner, instance: RunInstance, announce: Announce, timing
     if faults := check_assignment(question, assignment):
         raise RunEnded(RunStatus.ASSIGNMENT_FAILED, Stage.ASSIGNMENT, f"{type(assigner).__name__} {faults[0]}")
     return tuple(int(task) for task in assignment.task)
-

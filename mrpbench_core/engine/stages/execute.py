@@ -26,7 +26,6 @@ from mrpbench_core.engine.execution.progress import ExecutionProgress
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.replanning import Replanner
-from mrpbench_core.model.runs.routing import Router, start_poses
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.task_manager import TaskManager
@@ -40,6 +39,7 @@ from mrpbench_core.model.execution.motion import Event
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.runs.routing import Router, start_poses
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.referee.plans import Promises, judge_plan

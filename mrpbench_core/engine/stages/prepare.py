@@ -3,7 +3,6 @@
 from typing import Any
 
 import attrs
-import numpy as np
 
 from mrpbench_core.api.roadmap import RoadmapBuilder
 from mrpbench_core.api.world import WorldSource

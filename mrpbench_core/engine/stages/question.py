@@ -37,7 +37,9 @@ class Question:
     @classmethod
     def of(cls, config: RunConfig) -> Self:
         """The part of a configuration."""
-        return cls(**{name: getattr(config, name) for name in SETTINGS}, **facts_of(config.planner), executes=config.executes)
+        return cls(
+            **{name: getattr(config, name) for name in SETTINGS}, **facts_of(config.planner), executes=config.executes
+        )
 
 
 def facts_of(planner: Planner) -> dict[str, Any]:

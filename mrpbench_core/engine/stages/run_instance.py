@@ -1,8 +1,8 @@
 """A world with robots and tasks, before tasks are assigned."""
 
 import attrs
+import numpy as np
 
-from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.goals import goal_vertices, start_vertices
 from mrpbench_core.model.planning.problem import GoalSet
@@ -19,7 +19,7 @@ class RunInstance:
     fleet: Fleet
     roadmap: Roadmap
     scenario: Scenario
-    start: Int32 = attrs.field(init=False)
+    start: np.ndarray = attrs.field(init=False)
     """i4[n] roadmap vertices."""
     goals: list[tuple[GoalSet, ...]] = attrs.field(init=False)
     """The goals of each task; see `goal_vertices`."""

@@ -17,11 +17,12 @@ from mrpbench_core.engine.record import RunError, RunRecord
 from mrpbench_core.engine.study.record import complete_record
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.jsonl import Writer
+from mrpbench_core.files.output import sync_file_system
 from mrpbench_core.files.printing import printable
 from mrpbench_core.files.removal import remove_tree
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.store.folder import ResultsFolder, new_invocation
-from mrpbench_core.store.run_files import seal, sync_names
+from mrpbench_core.store.run_files import seal
 from mrpbench_core.store.shards import check_storable
 
 LOG = logging.getLogger(__name__)
@@ -116,7 +117,7 @@ class Commits:
         try:
             records = [self._complete(ended) for ended in batch]
             if any(len(record["provenance"]["files"]) > 1 for record in records):
-                sync_names(self.folder.path)
+                sync_file_system(self.folder.path)
             if not self.shard.is_intact():
                 self._replace_shard()
             self.shard.write(*records)

@@ -45,7 +45,9 @@ def is_at_goal(context: RunContext, place: Float, level: Int16) -> Bool:
     """Tell bool[n] whether robots at `place` f8[n,2] on `level` i2[n] are within the tolerance of their last goals."""
     there = np.ones(len(place), bool)
     for robot, goal in enumerate(last_goals(context)):
-        there[robot] = bool(_distance(context.problem.roadmap, goal, place[robot], level[robot]) <= context.goal_tolerance)
+        there[robot] = bool(
+            _distance(context.problem.roadmap, goal, place[robot], level[robot]) <= context.goal_tolerance
+        )
     return there
 
 

@@ -8,10 +8,10 @@ from typing import Any, get_args
 from mrpbench_core.api.metric import Better, Column, ColumnStage, Drawn, Metric, Question
 from mrpbench_core.engine.processes.call import in_worker
 from mrpbench_core.engine.processes.slots import slots_of_this_process
-from mrpbench_core.referee.measuring import describe
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.registry import Registry
+from mrpbench_core.referee.measuring import describe
 from mrpbench_core.report.reading.invocations import read_invocations
 from mrpbench_core.report.reading.outcome import PENALTY
 from mrpbench_core.report.reading.runs import PAR2

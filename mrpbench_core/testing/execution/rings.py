@@ -7,7 +7,6 @@ import numpy as np
 
 from mrpbench_core.api import Controller, Dispatcher, Simulator
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
-from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.common.fleet import Fleet
@@ -17,6 +16,7 @@ from mrpbench_core.model.execution.state import Inputs
 from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.model.worlds.world import Level, World
 
 PERIOD = 0.05

@@ -4,9 +4,9 @@ import math
 from collections.abc import Sequence
 
 from mrpbench_core.api.planner import Planner, Promise
-from mrpbench_core.referee.plans import Promises, judge_plan
 from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.referee.plans import Promises, judge_plan
 from mrpbench_core.testing.faults import require
 from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 
@@ -52,7 +52,7 @@ def answer_faults(problem: Problem, planner: Planner, result: PlanResult, optimu
         result: the answer.
         optimum: the least sum of costs, inf if there is no plan, None if it is not known.
     """
-    _, broken = judge(Promises.of(planner), problem, result)
+    _, broken = judge_plan(Promises.of(planner), problem, result)
     found = [] if broken is None else [broken]
     if result.status is PlanStatus.GAVE_UP and Promise.COMPLETE in planner.promises:
         found.append("gave up, but promises to be complete")

@@ -6,10 +6,10 @@ import pytest
 
 from mrpbench_core.builtin.navigators.rotations import FACING, LEAD, OFFSET
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
-from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.model.common.poses import wrapped
 from mrpbench_core.model.execution.observation import Estimate, FleetObservation, Odometry
 from mrpbench_core.model.execution.orders import Orders
+from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.model.worlds.world import Level, World
 from mrpbench_core.testing.execution.rings import ring_problem
 

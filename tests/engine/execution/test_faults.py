@@ -16,7 +16,6 @@ from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.faults import FaultState, approaches, draw_faults
 from mrpbench_core.engine.execution.recorder import Recorder
-from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.run import execute
@@ -24,6 +23,7 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.observation import ScanBatch
 from mrpbench_core.model.execution.orders import FleetView
+from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.testing.instances.random_plans import random_plan, random_plan_with_resources

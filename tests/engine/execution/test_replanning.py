@@ -7,10 +7,10 @@ from mrpbench_core.config.settings import Replanning
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.destinations import Destinations
 from mrpbench_core.engine.execution.replanning import RETRY_S, Replanner
-from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.engine.run import execute
 from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
+from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 

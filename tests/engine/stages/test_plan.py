@@ -11,10 +11,10 @@ import pytest
 from mrpbench_core.api import Planner, Promise
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.study import load_study
-from mrpbench_core.referee.plans import Promises, judge_plan
 from mrpbench_core.engine.stages.plan import budget_of, call_planner
 from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature
+from mrpbench_core.referee.plans import Promises
 
 BUDGET = Budget(wall_s=1.0, memory_bytes=1 << 30)
 COLLIDING = Plan(paths=(Path(edge=[0], enter=[0], leave=[1]), Path(edge=[-1, 2], enter=[0, 2], leave=[2, 3])))

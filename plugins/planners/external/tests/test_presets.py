@@ -9,8 +9,8 @@ from mrpbench_planners_external.presets import PRESETS
 
 from mrpbench_core.api import Promise
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.referee.plans import Promises, judge_plan
 from mrpbench_core.model.planning.plan import Budget, PlanStatus
+from mrpbench_core.referee.plans import Promises
 from mrpbench_core.testing.drawing import problem
 
 AMPLE = Budget(wall_s=30.0, memory_bytes=1 << 30, seed=7)

@@ -13,8 +13,8 @@ from mrpbench_planners_mapf.stretching import Stops, stretch
 
 from mrpbench_core.checking.conflicts import find_conflicts
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.referee.plans import Promises
 from mrpbench_core.model.planning.plan import Budget, Plan, PlanStatus
+from mrpbench_core.referee.plans import Promises
 from mrpbench_core.testing.drawing import build, problem
 from mrpbench_core.testing.instances.random_plans import random_plan, random_plan_with_resources
 from mrpbench_core.testing.instances.roadmaps import two_way_grid
