@@ -63,6 +63,7 @@ OWN = {
     "mrpbench-core": ["mrpbench_core"],
     "mrpbench-native": ["mrpbench_native"],
     "mrpbench-standard": wheel_packages(ROOT / "plugins/pyproject.toml"),
+    "mrpbench-league": ["mrpbench_league"],
 }
 
 

@@ -1,5 +1,10 @@
-"""Discrete executions by the rules of the League of Robot Runners, in C++."""
+"""The League of Robot Runners (LoRR, https://www.leagueofrobotrunners.org): its problems, executions and outputs.
 
-from mrpbench_simulators_league.execute import Executed, Options, execute
+- `files`: problems and outputs.
+- `execute`: executes a problem in C++.
+- `scoring`: scores an output from its motion alone.
+- `scenario`, `task_source`, `simulator`, `planner`: what studies use.
+- `commands`: what this distribution adds to `mrpbench`.
 
-__all__ = ["Executed", "Options", "execute"]
+This file imports nothing, so that `mrpbench --help` does not import NumPy.
+"""

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from mrpbench_core.files.lorr.motion import CLOCKWISE, COUNTER_CLOCKWISE, FORWARD
-from mrpbench_core.files.lorr.output import LorrOutput
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.model.runs.recording import TASK_EVENTS, Chunk
 from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_league.files.motion import CLOCKWISE, COUNTER_CLOCKWISE, FORWARD
+from mrpbench_league.files.output import LorrOutput
 
 ORDER = {kind: order for order, kind in enumerate(("begun", "errand", "done", "released", "withdrawn", "assigned"))}
 """Of events at the same time."""

@@ -7,9 +7,9 @@ import attrs
 import numpy as np
 from mrpbench_native import discrete
 
-from mrpbench_core.files.lorr.motion import Motion, write_segments, write_steps
-from mrpbench_core.files.lorr.output import LorrOutput, write_output
-from mrpbench_core.files.lorr.problem import LorrProblem
+from mrpbench_league.files.motion import Motion, write_segments, write_steps
+from mrpbench_league.files.output import LorrOutput, write_output
+from mrpbench_league.files.problem import LorrProblem
 
 SEGMENT = 100
 """Ticks of a segment of motion (2026)."""

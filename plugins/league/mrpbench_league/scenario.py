@@ -8,12 +8,12 @@ import numpy as np
 from mrpbench_core.api.component import option
 from mrpbench_core.api.scenario import ScenarioSource
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.lorr.problem import LorrProblem, problem_reads, read_problem
 from mrpbench_core.model.common.arrays import Float, Int32
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario
 from mrpbench_core.model.worlds.world import World
+from mrpbench_league.files.problem import LorrProblem, problem_reads, read_problem
 
 
 @attrs.frozen(kw_only=True)

@@ -1,68 +1,26 @@
-"""Runs of studies by the rules of the League of Robot Runners: a simulator and the planner that it executes."""
+"""Executes runs of studies by the rules of the League of Robot Runners."""
 
 import math
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import Literal
 
 import attrs
 import numpy as np
 
-from mrpbench_core.api import Planner, Promise, between, option
+from mrpbench_core.api import Planner, between, option
 from mrpbench_core.api.discrete import DiscreteResult, DiscreteRun, DiscreteSimulator
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.lorr.problem import LARGEST_POOL, Delays, LorrProblem, problem_reads, read_problem
 from mrpbench_core.model.common.arrays import Int
-from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
-from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.model.worlds.occupancy import Occupancy
 from mrpbench_core.model.worlds.world import World
-from mrpbench_simulators_league.channels import channels_of
-from mrpbench_simulators_league.execute import Options, execute
+from mrpbench_league.channels import channels_of
+from mrpbench_league.execute import Options, execute
+from mrpbench_league.files.problem import LARGEST_POOL, Delays, LorrProblem, problem_reads, read_problem
+from mrpbench_league.planner import StepPlanner
 
 SECONDS = {2024: 1.0, 2026: 0.1}
 """Of a step or tick, as in the competition."""
-
-
-@attrs.frozen(kw_only=True)
-class StepPlanner(Planner):
-    """Plans the next steps of robots with headings in a discrete execution. It gives no plan of a whole run, and serves
-    `simulator: league` alone.
-    """
-
-    promises: ClassVar[frozenset[Promise]] = frozenset()
-
-    method: Literal["epibt", "pibt"] = option(
-        "epibt", help="pibt: PIBT with turns; epibt: PIBT over operations of several actions"
-    )
-    depth: int = option(4, help="actions of an operation of epibt", validator=attrs.validators.in_((3, 4, 5)))
-    improve: bool = option(True, help="improve the operations of epibt by large neighbourhood search")
-
-    threads: int = option(
-        1,
-        help="threads of this improvement; results do not depend on their number if `limits.iterations` is given",
-        validator=between(1, 1024),
-    )
-    guidance: bool = option(True, help="let moves cost more where robots come the other way or stay")
-    active: int | None = option(
-        None,
-        help="robots that have a goal at the same time, at most; none: half as many as there are free cells",
-        validator=attrs.validators.optional(attrs.validators.ge(1)),
-    )
-
-    def idle_options(self) -> dict[str, str]:
-        """Return options that others make idle."""
-        if self.method != "epibt":
-            return dict.fromkeys(("depth", "improve", "threads"), "`method` is not epibt")
-        return {} if self.improve else {"threads": "`improve` is off"}
-
-    def skip(self, problem: Problem) -> str | None:  # noqa: ARG002
-        """Return that a plan of the whole run is not asked of it."""
-        return "plans steps of `simulator: league` alone"
-
-    def plan(self, problem: Problem, budget: Budget) -> PlanResult:  # noqa: ARG002
-        """Give up, see `skip`."""
-        return PlanResult(status=PlanStatus.GAVE_UP)
 
 
 @attrs.frozen(kw_only=True)
@@ -186,7 +144,7 @@ def rules_of(file: Path) -> Rules:
     """
     problem = read_problem(file)
     if problem.season == 2023:
-        raise InputError("is of 2023, which gives goals to robots itself", file=file, hint="use `mrpbench-league`")
+        raise InputError("is of 2023, which gives goals to robots itself", file=file, hint="use `mrpbench league-run`")
     return Rules(season=problem.season, counter=problem.counter, size=problem.size, delays=problem.delays)
 
 

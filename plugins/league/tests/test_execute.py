@@ -1,18 +1,13 @@
-"""Executions of drawn problems, scored by `mrpbench_core.checking.lorr`, which shares no code with them."""
-
-import json
+"""Executions of drawn problems, scored by `mrpbench_league.scoring`, which shares no code with them."""
 
 import attrs
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mrpbench_simulators_league import Options, execute
-from mrpbench_simulators_league.command import main
-
-from mrpbench_core.checking.lorr.rescore import rescore
-from mrpbench_core.files.lorr.output import read_output
-from mrpbench_core.files.lorr.problem import Delays, LorrProblem
+from mrpbench_league.execute import Options, execute
+from mrpbench_league.files.problem import Delays, LorrProblem
+from mrpbench_league.scoring.rescore import rescore
 
 DELAYS = Delays(least=2, most=9, events="bernoulli", probability=0.02, durations="uniform")
 
@@ -122,29 +117,3 @@ def test_delays_have_the_stated_distribution(events, durations):
     hits = 0.02 * mean  # n * p of the robots that are not delayed are hit, or each of these with p
     expected = hits if events == "poisson" else hits / (1 - 0.02 + hits)
     assert lengths.sum() / (30 * 4000) == pytest.approx(expected, rel=0.06)
-
-
-@pytest.mark.parametrize("season", [2023, 2024, 2026])
-def test_the_command_writes_an_output_that_is_read_and_scored(tmp_path, capsys, season):
-    problem = drawn(season, 9)
-    side = len(problem.blocked)
-    rows = ["".join("@" if cell else "." for cell in row) for row in problem.blocked]
-    (tmp_path / "m.map").write_text("\n".join(["type octile", f"height {side}", f"width {side}", "map", *rows, ""]))
-    (tmp_path / "a").write_text("\n".join(map(str, [len(problem.start), *problem.start])))
-    lines = np.split(problem.errands, problem.first[1:-1])
-    (tmp_path / "t").write_text("\n".join([str(len(lines)), *(",".join(map(str, line)) for line in lines)]))
-    head = {"mapFile": "m.map", "agentFile": "a", "taskFile": "t", "teamSize": 12, "numTasksReveal": problem.reveal}
-    head |= {"version": f"{season} LoRR", "agentCounter": 3}
-    (tmp_path / "p.json").write_text(json.dumps(head))
-    file = tmp_path / "o.json"
-    words = [str(tmp_path / "p.json"), "--duration", "210", "--out", str(file), "--iterations", "3"]
-    assert main(words) == 0
-    assert "late answers" in capsys.readouterr().out
-    score = rescore(attrs.evolve(problem, delays=None), read_output(file))
-    assert score.faults.kept == []
-    assert score.tasks > 10
-
-
-def test_a_mistake_gives_one_line(tmp_path, capsys):
-    assert main([str(tmp_path / "none.json"), "--duration", "5"]) == 2
-    assert capsys.readouterr().err == f"mrpbench-league: {tmp_path}/none.json: no such file\n"

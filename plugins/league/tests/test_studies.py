@@ -4,14 +4,15 @@ import json
 
 import numpy as np
 import pytest
-from mrpbench_simulators_league.simulator import League, StepPlanner
+from mrpbench_league.files.output import read_output
+from mrpbench_league.files.problem import read_problem
+from mrpbench_league.planner import StepPlanner
+from mrpbench_league.scoring.rescore import rescore
+from mrpbench_league.simulator import League
 
-from mrpbench_core.checking.lorr.rescore import rescore
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.pipeline import execute
 from mrpbench_core.files.errors import InputError, InputErrors
-from mrpbench_core.files.lorr.output import read_output
-from mrpbench_core.files.lorr.problem import read_problem
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.testing import DiscreteSimulatorConformance

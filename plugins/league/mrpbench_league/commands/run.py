@@ -1,4 +1,4 @@
-"""`mrpbench-league PROBLEM.json`: executes a problem and writes its output."""
+"""`mrpbench league-run PROBLEM`: execute a problem of the League of Robot Runners and write the output."""
 
 import argparse
 import sys
@@ -7,14 +7,19 @@ from pathlib import Path
 import attrs
 import numpy as np
 
+from mrpbench_core.cli.main import main as mrpbench
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.lorr.problem import read_problem
-from mrpbench_simulators_league.execute import Options, execute
+from mrpbench_league.execute import Options, execute
+from mrpbench_league.files.problem import read_problem
 
 
-def main(words: list[str] | None = None) -> int:
-    """Run the command; return its exit code."""
-    parser = argparse.ArgumentParser(prog="mrpbench-league", description=__doc__)
+def main() -> int:
+    """Run `mrpbench-league`, another name of `mrpbench league-run`; return its exit code."""
+    return mrpbench(["league-run", *sys.argv[1:]])
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
     parser.add_argument("problem", type=Path, metavar="PROBLEM.json", help="a problem of 2023, 2024 or 2026")
     parser.add_argument("--duration", type=_positive, required=True, metavar="N", help="steps, or ticks of 2026")
     parser.add_argument("--out", type=Path, default=Path("output.json"), metavar="FILE", help="(default: %(default)s)")
@@ -27,27 +32,23 @@ def main(words: list[str] | None = None) -> int:
     parser.add_argument("--iterations", type=int, metavar="N", help="rounds of improvement instead of seconds")
     parser.add_argument("--period", type=_positive, default=10, metavar="N", help="ticks between two calls (2026)")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the planner")
-    given = parser.parse_args(words)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Execute the problem and print totals."""
+    problem = read_problem(arguments.problem)
+    options = {field.name: getattr(arguments, field.name) for field in attrs.fields(Options) if field.name in arguments}
     try:
-        problem = read_problem(given.problem)
-        options = {field.name: getattr(given, field.name) for field in attrs.fields(Options) if field.name in given}
-        done = execute(problem, given.duration, Options(**options))
-        done.write(given.out)
-    except InputError as error:
-        print(f"mrpbench-league: {error}", file=sys.stderr)
-        return 2
-    except (OSError, ValueError) as error:
-        print(f"mrpbench-league: {getattr(error, 'strerror', None) or error}", file=sys.stderr)
-        return 2
+        done = execute(problem, arguments.duration, Options(**options))
+    except ValueError as error:
+        raise InputError(str(error)) from error
+    done.write(arguments.out)
     slowest, usual = done.call_seconds.max(), np.median(done.call_seconds)
-    print(f"{done.output.finished} tasks, {done.errands} errands in {given.duration} {_unit(problem.season)}")
+    unit = "ticks" if problem.season == 2026 else "steps"
+    print(f"{done.output.finished} tasks, {done.errands} errands in {arguments.duration} {unit}")
     print(f"{done.late_calls} late answers; a call took {usual:.3f} s (median), {slowest:.3f} s (longest)")
-    print(given.out)
+    print(arguments.out)
     return 0
-
-
-def _unit(season: int) -> str:
-    return "ticks" if season == 2026 else "steps"
 
 
 def _positive(text: str) -> int:

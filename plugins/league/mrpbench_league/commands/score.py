@@ -1,31 +1,32 @@
-"""`mrpbench analyze OUTPUT.json`: scores an output of the League of Robot Runners."""
+"""`mrpbench league-score PROBLEM OUTPUT`: score an output of the League of Robot Runners from its motion alone."""
 
+import argparse
 from pathlib import Path
 
-from mrpbench_core.checking.lorr.rescore import Score, rescore
 from mrpbench_core.cli.output.table import print_json, print_table
-from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.lorr.output import read_output
-from mrpbench_core.files.lorr.problem import read_problem
 from mrpbench_core.files.text import counted
+from mrpbench_league.files.output import read_output
+from mrpbench_league.files.problem import read_problem
+from mrpbench_league.scoring.rescore import Score, rescore
 
 SHOWN = 20
 """Broken rules that are printed."""
 
 
-def analyze_output(output: Path, problem: str | None, *, as_json: bool) -> int:
-    """Score an output and print totals and broken rules.
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.epilog = (
+        "The exit code is 1 if a rule is broken, or if the output states something else than its motion shows."
+    )
+    parser.add_argument("problem", type=Path, metavar="PROBLEM.json", help="a problem of 2023, 2024 or 2026")
+    parser.add_argument("output", type=Path, metavar="OUTPUT.json", help="an output of any program for this problem")
+    parser.add_argument("--json", action="store_true", help="print the score as JSON")
 
-    Returns:
-        1 if a rule is broken or the output states something else than its motion shows, else 0.
-    """
-    if problem is None:
-        raise InputError("an output of the League of Robot Runners needs --scenario PROBLEM.json", file=output)
-    score = rescore(read_problem(Path(problem)), read_output(output))
-    if as_json:
-        print_json(_document(score))
-    else:
-        _print(score)
+
+def run(arguments: argparse.Namespace) -> int:
+    """Score an output and print totals and broken rules."""
+    score = rescore(read_problem(arguments.problem), read_output(arguments.output))
+    print_json(_document(score)) if arguments.json else _print(score)
     return 1 if score.faults.count else 0
 
 

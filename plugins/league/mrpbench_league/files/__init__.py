@@ -1,1 +1,1 @@
-"""Files of the League of Robot Runners (LoRR, https://www.leagueofrobotrunners.org): problems and outputs."""
+"""Files of the League of Robot Runners: problems and outputs."""

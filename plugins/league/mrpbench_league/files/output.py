@@ -8,11 +8,11 @@ from typing import Any, Literal
 import attrs
 import numpy as np
 
-from mrpbench_core.files.lorr.json_object import JsonObject
-from mrpbench_core.files.lorr.motion import Motion, parse_segments, parse_steps
-from mrpbench_core.files.lorr.problem import SEASONS
 from mrpbench_core.files.output import replace_file
 from mrpbench_core.model.common.arrays import Int32, array
+from mrpbench_league.files.json_object import JsonObject
+from mrpbench_league.files.motion import Motion, parse_segments, parse_steps
+from mrpbench_league.files.problem import SEASONS
 
 LONGEST = 10**7
 """Steps or ticks."""

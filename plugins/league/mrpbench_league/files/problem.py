@@ -7,10 +7,10 @@ import attrs
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.lorr.json_object import JsonObject
 from mrpbench_core.files.movingai import read_movingai_map
 from mrpbench_core.files.text import read_text
 from mrpbench_core.model.common.arrays import Bool, Int32, array
+from mrpbench_league.files.json_object import JsonObject
 
 SEASONS = {"2023 LoRR": 2023, "2023": 2023, "2024 LoRR": 2024, "2026 LoRR": 2026}
 Strategy = Literal["roundrobin", "roundrobin-fixed", "greedy"]

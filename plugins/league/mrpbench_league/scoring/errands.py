@@ -6,10 +6,10 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from mrpbench_core.checking.lorr.faults import Faults
-from mrpbench_core.files.lorr.output import Event
-from mrpbench_core.files.lorr.problem import LorrProblem
 from mrpbench_core.model.common.arrays import Int, Int32
+from mrpbench_league.files.output import Event
+from mrpbench_league.files.problem import LorrProblem
+from mrpbench_league.scoring.faults import Faults
 
 Schedule = Sequence[Sequence[tuple[int, int]]]
 

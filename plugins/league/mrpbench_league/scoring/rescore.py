@@ -3,12 +3,12 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.checking.lorr.errands import Done, follow_goals, follow_schedule
-from mrpbench_core.checking.lorr.faults import Faults
-from mrpbench_core.checking.lorr.steps import cells_by_step
-from mrpbench_core.checking.lorr.ticks import cells_by_tick
-from mrpbench_core.files.lorr.output import LorrOutput
-from mrpbench_core.files.lorr.problem import LorrProblem
+from mrpbench_league.files.output import LorrOutput
+from mrpbench_league.files.problem import LorrProblem
+from mrpbench_league.scoring.errands import Done, follow_goals, follow_schedule
+from mrpbench_league.scoring.faults import Faults
+from mrpbench_league.scoring.steps import cells_by_step
+from mrpbench_league.scoring.ticks import cells_by_tick
 
 
 @attrs.frozen(kw_only=True)

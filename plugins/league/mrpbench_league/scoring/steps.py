@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from mrpbench_core.checking.lorr.faults import Faults
-from mrpbench_core.files.lorr.motion import CLOCKWISE, COUNTER_CLOCKWISE, FORWARD
-from mrpbench_core.files.lorr.output import LorrOutput
-from mrpbench_core.files.lorr.problem import LorrProblem
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.common.arrays import Byte, Int, Int32
+from mrpbench_league.files.motion import CLOCKWISE, COUNTER_CLOCKWISE, FORWARD
+from mrpbench_league.files.output import LorrOutput
+from mrpbench_league.files.problem import LorrProblem
+from mrpbench_league.scoring.faults import Faults
 
 OFFSETS = np.array([[0, 1], [1, 0], [0, -1], [-1, 0]])
 """Row and column of one cell ahead, by heading."""

@@ -4,13 +4,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mrpbench_core.checking.lorr.faults import Faults
-from mrpbench_core.checking.lorr.steps import OFFSETS
-from mrpbench_core.files.lorr.motion import CLOCKWISE, COUNTER_CLOCKWISE, FORWARD
-from mrpbench_core.files.lorr.output import LorrOutput
-from mrpbench_core.files.lorr.problem import LorrProblem
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.common.arrays import Byte, Float, Int, Int32
+from mrpbench_league.files.motion import CLOCKWISE, COUNTER_CLOCKWISE, FORWARD
+from mrpbench_league.files.output import LorrOutput
+from mrpbench_league.files.problem import LorrProblem
+from mrpbench_league.scoring.faults import Faults
+from mrpbench_league.scoring.steps import OFFSETS
 
 TOUCH = 1e-9
 """Overlaps of less than this, in cells, are rounding."""

@@ -2,8 +2,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from mrpbench_core.files.lorr.motion import parse_segments, parse_steps, write_segments, write_steps
+from mrpbench_league.files.motion import parse_segments, parse_steps, write_segments, write_steps
 
 LETTERS = st.text("FRCW", max_size=40).map(lambda text: np.frombuffer(text.encode(), np.uint8))
 

@@ -1,9 +1,9 @@
 import json
 
 import pytest
+from mrpbench_league.files.problem import read_problem
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.lorr.problem import read_problem
 
 MAP = "type octile\nheight 2\nwidth 3\nmap\n.@E\n..S\n"
 

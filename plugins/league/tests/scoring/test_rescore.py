@@ -3,11 +3,10 @@
 import attrs
 import numpy as np
 import pytest
-
-from mrpbench_core.checking.lorr.rescore import rescore
-from mrpbench_core.files.lorr.motion import Motion
-from mrpbench_core.files.lorr.output import LorrOutput
-from mrpbench_core.files.lorr.problem import LorrProblem
+from mrpbench_league.files.motion import Motion
+from mrpbench_league.files.output import LorrOutput
+from mrpbench_league.files.problem import LorrProblem
+from mrpbench_league.scoring.rescore import rescore
 
 BLOCKED = np.zeros((3, 4), bool)
 BLOCKED[1, 2] = True
