@@ -4,6 +4,7 @@ A test compares this table with the entry points of the distributions.
 """
 
 from mrpbench_core.files.extras import pip
+from mrpbench_core.plugins.kinds import COMMANDS
 
 _CRITICS = (
     *("RotateToGoal", "Oscillation", "BaseObstacle", "ObstacleFootprint", "GoalAlign"),
@@ -63,8 +64,14 @@ EXTRAS = {
 
 
 def remedy(name: str, group: str | None = None) -> str | None:
-    """Return which distribution of this project has a plugin and how to install it, of any group if none is given."""
+    """Return which distribution of this project has a plugin or command and how to install it.
+
+    Args:
+        name: the plugin or command.
+        group: its entry-point group; without one, plugins of all kinds.
+    """
     for owner, offers in PUBLISHED.items():
-        if any(name in names for offered, names in offers.items() if group in (None, offered)):
+        groups = [group] if group else [offered for offered in offers if offered != COMMANDS]
+        if any(name in offers.get(offered, ()) for offered in groups):
             return f"{owner} has it: {pip(EXTRAS[owner])}"
     return None
