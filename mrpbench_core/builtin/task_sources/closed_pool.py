@@ -17,8 +17,8 @@ from mrpbench_core.model.worlds.world import World
 
 @attrs.frozen(kw_only=True)
 class ClosedPool(AnyPlace):
-    """A finished task is replaced at once: floor(`per_robot` · robots) are always unfinished. Errands are drawn at random
-    places of the world.
+    """A finished task is replaced at once: floor(`per_robot` · robots) are always unfinished. Errands are drawn at
+    random places of the world.
     """
 
     per_robot: float = option(1.5, help="unfinished tasks per robot", validator=between(1e-3, 1000))

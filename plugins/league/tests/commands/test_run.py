@@ -22,7 +22,7 @@ def problem(request, tmp_path):
     (tmp_path / "ring.tasks").write_text("\n".join((str(len(lines)), *lines)))
     head = {"version": f"{request.param} LoRR", "mapFile": "ring.map", "agentFile": "ring.agents", "teamSize": 4}
     file = tmp_path / "ring.json"
-    file.write_text(json.dumps(head | {"taskFile": "ring.tasks", "numTasksReveal": 1.5, "agentCounter": 3}))
+    file.write_text(json.dumps(head | {"taskFile": "ring.tasks", "numTasksReveal": 2, "agentCounter": 3}))
     return file
 
 
