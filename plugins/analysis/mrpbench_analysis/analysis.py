@@ -10,13 +10,13 @@ from typing import Any
 import attrs
 import numpy as np
 
+from mrpbench_analysis.observed_run import ObservedRun, Sampling, observe, observe_own
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.importer import Importer, Observed
 from mrpbench_core.api.metric import Metric
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.config.canonical import canonical_component
 from mrpbench_core.config.settings import FleetEntry
-from mrpbench_core.engine.analysis.observed_run import ObservedRun, Sampling, observe, observe_own
 from mrpbench_core.engine.loading.versions import with_versions
 from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.engine.record import RunError, RunRecord, StoredRecord

@@ -88,12 +88,12 @@ def run(arguments: argparse.Namespace) -> int:
 
 def analyzed(words: dict[str, Any]) -> dict[str, Any]:
     """In a worker process: measure the bag and store the record; return it."""
+    from mrpbench_analysis.analysis import Analysis, analyze
+    from mrpbench_analysis.observed_run import Sampling
     from mrpbench_core.api.importer import Importer
     from mrpbench_core.api.metric import Metric
     from mrpbench_core.cli.input.world import world_source
     from mrpbench_core.config.settings import default_plugin
-    from mrpbench_core.engine.analysis.analysis import Analysis, analyze
-    from mrpbench_core.engine.analysis.observed_run import Sampling
 
     arguments = argparse.Namespace(**words)
     for name in ("rate", "max_gap", "tolerance"):

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from mrpbench_analysis.resampling import resample
 from mrpbench_core.api.importer import Observed, Signal, Track
-from mrpbench_core.engine.analysis.resampling import resample
 from mrpbench_core.model.common.arrays import Float
 
 SILENCE = 0.5

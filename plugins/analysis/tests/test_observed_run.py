@@ -5,10 +5,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_analysis.observed_run import Sampling, observe
+from mrpbench_analysis.resampling import even_times, resample
 
 from mrpbench_core.api.importer import Observed, Track
-from mrpbench_core.engine.analysis.observed_run import Sampling, observe
-from mrpbench_core.engine.analysis.resampling import even_times, resample
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet, RobotModel
 from mrpbench_core.model.planning.scenario import Scenario, Task

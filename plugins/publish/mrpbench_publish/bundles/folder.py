@@ -5,12 +5,12 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.engine.bundles.expected import Invocation, relocated
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.yaml import load as load_yaml
 from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_core.store.results import Results
 from mrpbench_core.store.shards import read_shard
+from mrpbench_publish.bundles.expected import Invocation, relocated
 
 
 @attrs.frozen(kw_only=True)

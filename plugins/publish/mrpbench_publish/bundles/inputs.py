@@ -10,11 +10,11 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.engine.bundles.expected import Expected
-from mrpbench_core.engine.bundles.opened import Opened
 from mrpbench_core.files.errors import InputError, InputErrors
-from mrpbench_core.store.bundle.layout import INPUT_FOLDER
 from mrpbench_core.store.run_files import digest
+from mrpbench_publish.bundles.expected import Expected
+from mrpbench_publish.bundles.opened import Opened
+from mrpbench_publish.files.layout import INPUT_FOLDER
 
 _FULL_NAME = re.compile(r"""(?<![\w.])/[^\s,{}\[\]"']+""")
 _LEVEL = "_"

@@ -9,14 +9,14 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.engine.bundles.folder import Documents, read_documents
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import read_text
-from mrpbench_core.store.bundle.bag import read_info
-from mrpbench_core.store.bundle.layout import INPUT_FOLDER, INPUTS, RESULTS
 from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_core.store.results import Results
 from mrpbench_core.store.shards import read_shard
+from mrpbench_publish.bundles.folder import Documents, read_documents
+from mrpbench_publish.files.bag import read_info
+from mrpbench_publish.files.layout import INPUT_FOLDER, INPUTS, RESULTS
 
 _BASE = re.compile(r"\.|_(/_)*")
 _LONGEST = 4096

@@ -8,22 +8,22 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.engine.bundles.expected import Expected, expect, named_files
-from mrpbench_core.engine.bundles.folder import Documents, read_documents
-from mrpbench_core.engine.bundles.inputs import collect_inputs, full_names
-from mrpbench_core.engine.bundles.sample import drawn
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.files.links import followed
 from mrpbench_core.files.text import counted
-from mrpbench_core.store.bundle.archive import pack
-from mrpbench_core.store.bundle.bag import tag_files
-from mrpbench_core.store.bundle.description import Author, Description
-from mrpbench_core.store.bundle.layout import CITATION, CRATE, INPUTS, RESULTS, STUDY
 from mrpbench_core.store.invocation import dumps
 from mrpbench_core.store.results import Results
 from mrpbench_core.store.run_files import check_recording, digest
 from mrpbench_core.store.shards import read_shard
 from mrpbench_core.version import __version__
+from mrpbench_publish.bundles.expected import Expected, expect, named_files
+from mrpbench_publish.bundles.folder import Documents, read_documents
+from mrpbench_publish.bundles.inputs import collect_inputs, full_names
+from mrpbench_publish.bundles.sample import drawn
+from mrpbench_publish.files.archive import pack
+from mrpbench_publish.files.bag import tag_files
+from mrpbench_publish.files.description import Author, Description
+from mrpbench_publish.files.layout import CITATION, CRATE, INPUTS, RESULTS, STUDY
 
 FORMAT = "1"
 """Raised when a reader of the old format would misread the new one."""

@@ -8,11 +8,18 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.engine.bundles.checks.bag import description_faults, file_faults, reference_faults
-from mrpbench_core.engine.bundles.checks.clock import LEAST, clock_faults, usable
-from mrpbench_core.engine.bundles.checks.code import code_faults
-from mrpbench_core.engine.bundles.checks.instances import recording_faults, scenario_ids
-from mrpbench_core.engine.bundles.checks.records import (
+from mrpbench_core.engine.loading.runs import StudyRun
+from mrpbench_core.engine.processes.call import CallFailedError, call
+from mrpbench_core.engine.study.progress import StudyProgress
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.text import counted
+from mrpbench_core.store.run_files import digest
+from mrpbench_core.version import __version__
+from mrpbench_publish.bundles.checks.bag import description_faults, file_faults, reference_faults
+from mrpbench_publish.bundles.checks.clock import LEAST, clock_faults, usable
+from mrpbench_publish.bundles.checks.code import code_faults
+from mrpbench_publish.bundles.checks.instances import recording_faults, scenario_ids
+from mrpbench_publish.bundles.checks.records import (
     copy_faults,
     record_faults,
     scenario_faults,
@@ -20,26 +27,19 @@ from mrpbench_core.engine.bundles.checks.records import (
     status_faults,
     timing_faults,
 )
-from mrpbench_core.engine.bundles.checks.repetition import is_comparable, repeat, repetition_faults, same_platform
-from mrpbench_core.engine.bundles.checks.study import (
+from mrpbench_publish.bundles.checks.repetition import is_comparable, repeat, repetition_faults, same_platform
+from mrpbench_publish.bundles.checks.study import (
     Asked,
     outside_faults,
     read_studies,
     study_faults,
     uses_local_code,
 )
-from mrpbench_core.engine.bundles.inputs import take_inputs
-from mrpbench_core.engine.bundles.opened import Opened, Stored, open_bundle
-from mrpbench_core.engine.bundles.sample import drawn
-from mrpbench_core.engine.bundles.verdict import Check, Fault, Verdict, checked
-from mrpbench_core.engine.loading.runs import StudyRun
-from mrpbench_core.engine.processes.call import CallFailedError, call
-from mrpbench_core.engine.study.progress import StudyProgress
-from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.text import counted
-from mrpbench_core.store.bundle.archive import unpack
-from mrpbench_core.store.run_files import digest
-from mrpbench_core.version import __version__
+from mrpbench_publish.bundles.inputs import take_inputs
+from mrpbench_publish.bundles.opened import Opened, Stored, open_bundle
+from mrpbench_publish.bundles.sample import drawn
+from mrpbench_publish.bundles.verdict import Check, Fault, Verdict, checked
+from mrpbench_publish.files.archive import unpack
 
 RECORDING_S = 1800.0
 """Wall seconds that the check of one recording, or of all scenarios, may take."""

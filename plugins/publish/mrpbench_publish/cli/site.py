@@ -14,7 +14,7 @@ from mrpbench_core.store.results import Results
 
 if TYPE_CHECKING:
     from mrpbench_core.report.report import Report
-    from mrpbench_core.report.site.pages import Entry
+    from mrpbench_publish.site.pages import Entry
 
 REPLAYS = 4
 """Replays of each bundle that are written by default."""
@@ -38,8 +38,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(arguments: argparse.Namespace) -> int:
     """Write the site."""
     from mrpbench_core.report.report import make_report
-    from mrpbench_core.report.site.boards import make_boards
-    from mrpbench_core.report.site.pages import write_site
+    from mrpbench_publish.site.boards import make_boards
+    from mrpbench_publish.site.pages import write_site
 
     out = Path(arguments.out)
     with TemporaryDirectory(prefix="mrpbench-site-") as name:
@@ -62,12 +62,12 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _read(file: Path, folder: Path) -> "tuple[Entry, Results | None]":
     """Verify or look up a bundle, and unpack it if nothing was found."""
-    from mrpbench_core.report.site.pages import Entry
-    from mrpbench_core.store.bundle.archive import unpack
-    from mrpbench_core.store.bundle.description import read_description
-    from mrpbench_core.store.bundle.layout import CRATE, RESULTS
     from mrpbench_core.store.folder import ResultsFolder
     from mrpbench_core.store.run_files import digest
+    from mrpbench_publish.files.archive import unpack
+    from mrpbench_publish.files.description import read_description
+    from mrpbench_publish.files.layout import CRATE, RESULTS
+    from mrpbench_publish.site.pages import Entry
 
     if not file.is_file():
         raise InputError("no such file", file=file)
@@ -92,8 +92,8 @@ def _read(file: Path, folder: Path) -> "tuple[Entry, Results | None]":
 
 
 def _verdict(file: Path, sha256: str) -> Mapping[str, Any]:
-    from mrpbench_core.engine.bundles.verify import VerifyOptions, verify
     from mrpbench_core.engine.processes.slots import slots_of_this_process
+    from mrpbench_publish.bundles.verify import VerifyOptions, verify
 
     stored = file.with_name(f"{file.name}.verdict.json")
     if not stored.exists():

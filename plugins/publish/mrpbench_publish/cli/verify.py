@@ -9,12 +9,12 @@ from pathlib import Path
 from mrpbench_core.cli.input.arguments import read_share
 from mrpbench_core.cli.output.progress import Printed
 from mrpbench_core.cli.output.table import print_json
-from mrpbench_core.engine.bundles.verdict import Check
-from mrpbench_core.engine.bundles.verify import VerifyOptions, verify
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.output import write_page_file
 from mrpbench_core.files.text import counted
+from mrpbench_publish.bundles.verdict import Check
+from mrpbench_publish.bundles.verify import VerifyOptions, verify
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

@@ -8,8 +8,8 @@ from urllib.parse import quote
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import read_text
-from mrpbench_core.store.bundle.layout import DECLARATION, INFO, MANIFEST, PAYLOAD, TAG_MANIFEST
 from mrpbench_core.store.run_files import digest
+from mrpbench_publish.files.layout import DECLARATION, INFO, MANIFEST, PAYLOAD, TAG_MANIFEST
 
 DECLARED = "BagIt-Version: 1.0\nTag-File-Character-Encoding: UTF-8\n"
 _LINE = re.compile(r"([0-9a-f]{64})  (\S.*)")

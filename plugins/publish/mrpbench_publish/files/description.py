@@ -12,8 +12,8 @@ from typing import Any
 import attrs
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.store.bundle.layout import PAYLOAD
 from mrpbench_core.store.invocation import dumps
+from mrpbench_publish.files.layout import PAYLOAD
 
 SPDX = "https://spdx.org/licenses/"
 _CRATE = "https://w3id.org/ro/crate/1.2"

@@ -16,9 +16,9 @@ from mrpbench_core.files.text import counted
 from mrpbench_core.report.html.cells import Td, data_table, plain
 from mrpbench_core.report.html.shell import page_shell, rules_markup
 from mrpbench_core.report.reading.columns import heading
-from mrpbench_core.report.site.boards import Board, Cell, Row
 from mrpbench_core.report.template import PageTemplate
-from mrpbench_core.store.bundle.description import Description
+from mrpbench_publish.files.description import Description
+from mrpbench_publish.site.boards import Board, Cell, Row
 
 
 @attrs.frozen(kw_only=True)

@@ -5,16 +5,16 @@ import shutil
 from pathlib import Path
 
 import pytest
+from mrpbench_publish.bundles.publish import PublishOptions, publish
+from mrpbench_publish.bundles.verify import VerifyOptions, verify
+from mrpbench_publish.files.archive import pack, unpack
+from mrpbench_publish.files.bag import read_info, tag_files
+from mrpbench_publish.files.description import read_description
+from mrpbench_publish.files.layout import CITATION, CRATE, RESULTS, STUDY
 
 from mrpbench_core import load, run
-from mrpbench_core.engine.bundles.publish import PublishOptions, publish
-from mrpbench_core.engine.bundles.verify import VerifyOptions, verify
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.yaml import load as load_yaml
-from mrpbench_core.store.bundle.archive import pack, unpack
-from mrpbench_core.store.bundle.bag import read_info, tag_files
-from mrpbench_core.store.bundle.description import read_description
-from mrpbench_core.store.bundle.layout import CITATION, CRATE, RESULTS, STUDY
 from mrpbench_core.store.invocation import write_document
 from mrpbench_core.store.run_files import digest
 

@@ -5,21 +5,20 @@ import json
 from types import SimpleNamespace
 
 import pytest
-
-from mrpbench_core.engine.bundles.checks.bag import description_faults, file_faults
-from mrpbench_core.engine.bundles.checks.clock import clock_faults
-from mrpbench_core.engine.bundles.checks.code import code_faults
-from mrpbench_core.engine.bundles.checks.records import (
+from mrpbench_publish.bundles.checks.bag import description_faults, file_faults
+from mrpbench_publish.bundles.checks.clock import clock_faults
+from mrpbench_publish.bundles.checks.code import code_faults
+from mrpbench_publish.bundles.checks.records import (
     copy_faults,
     record_faults,
     scenario_faults,
     status_faults,
     timing_faults,
 )
-from mrpbench_core.engine.bundles.checks.repetition import repetition_faults, same_platform
-from mrpbench_core.engine.bundles.checks.study import Asked, study_faults, uses_local_code
-from mrpbench_core.engine.bundles.opened import open_bundle
-from mrpbench_core.store.bundle.archive import unpack
+from mrpbench_publish.bundles.checks.repetition import repetition_faults, same_platform
+from mrpbench_publish.bundles.checks.study import Asked, study_faults, uses_local_code
+from mrpbench_publish.bundles.opened import open_bundle
+from mrpbench_publish.files.archive import unpack
 
 VALUES = (None, "x", "os:system", -1, 1e300, True, [], [[1]], {}, {"a": {"b": []}})
 

@@ -4,9 +4,9 @@ import json
 from pathlib import Path
 
 import pytest
+from mrpbench_publish.bundles.sample import drawn
 
 from mrpbench_core import run
-from mrpbench_core.engine.bundles.sample import drawn
 from mrpbench_core.files.errors import InputError, InputErrors
 
 

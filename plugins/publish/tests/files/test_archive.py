@@ -6,9 +6,9 @@ import zipfile
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mrpbench_publish.files.archive import pack, unpack
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.store.bundle.archive import pack, unpack
 
 NAMES = st.lists(st.text("abcd", min_size=1, max_size=4), min_size=1, max_size=4, unique=True)
 

@@ -1,8 +1,7 @@
 """Tag files of bags: the reference implementation of BagIt accepts them, and every change is named."""
 
 import pytest
-
-from mrpbench_core.store.bundle.bag import bag_faults, read_info, tag_files
+from mrpbench_publish.files.bag import bag_faults, read_info, tag_files
 
 PAYLOAD = {"data/a.txt": b"one\n", "data/deep/b.txt": b"two\n", "data/empty": b""}
 

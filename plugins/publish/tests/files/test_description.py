@@ -6,9 +6,9 @@ import pytest
 import yaml
 from hypothesis import given
 from hypothesis import strategies as st
+from mrpbench_publish.files.description import Author, Description, read_description
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.store.bundle.description import Author, Description, read_description
 
 PAYLOAD = [
     "data/ro-crate-metadata.json",

@@ -1,11 +1,11 @@
 """A site of two bundles, one of which was found to be forged; texts carry markup."""
 
 import pytest
+from mrpbench_publish.files.description import Author, Description
+from mrpbench_publish.site.boards import make_boards
+from mrpbench_publish.site.pages import Entry, write_site
 
 from mrpbench_core.report.report import make_report
-from mrpbench_core.report.site.boards import make_boards
-from mrpbench_core.report.site.pages import Entry, write_site
-from mrpbench_core.store.bundle.description import Author, Description
 
 HOSTILE = "<script>alert(1)</script>"
 

@@ -2,15 +2,15 @@
 
 from collections.abc import Iterator
 
-from mrpbench_core.engine.bundles.opened import Opened
-from mrpbench_core.engine.bundles.publish import FORMAT
-from mrpbench_core.engine.bundles.sample import drawn
-from mrpbench_core.engine.bundles.verdict import Fault
-from mrpbench_core.store.bundle.bag import bag_faults
-from mrpbench_core.store.bundle.description import read_description
-from mrpbench_core.store.bundle.layout import ALLOWED, CITATION, CRATE, PAYLOAD, STUDY
 from mrpbench_core.store.invocation import dumps
 from mrpbench_core.store.run_files import digest
+from mrpbench_publish.bundles.opened import Opened
+from mrpbench_publish.bundles.publish import FORMAT
+from mrpbench_publish.bundles.sample import drawn
+from mrpbench_publish.bundles.verdict import Fault
+from mrpbench_publish.files.bag import bag_faults
+from mrpbench_publish.files.description import read_description
+from mrpbench_publish.files.layout import ALLOWED, CITATION, CRATE, PAYLOAD, STUDY
 
 
 def file_faults(bundle: Opened) -> Iterator[Fault | str]:

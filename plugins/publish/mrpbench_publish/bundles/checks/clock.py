@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.engine.bundles.checks.repetition import Pair
 from mrpbench_core.engine.processes.machine import machine
+from mrpbench_publish.bundles.checks.repetition import Pair
 
 LEAST = 5
 """Pairs of runs below which nothing is said."""

@@ -4,13 +4,13 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
-from mrpbench_core.engine.bundles.checks.study import Asked
-from mrpbench_core.engine.bundles.opened import Opened, Stored
-from mrpbench_core.engine.bundles.verdict import Fault
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import read_text
 from mrpbench_core.plugins.local import LocalSource
 from mrpbench_core.plugins.siblings import sibling_imports
+from mrpbench_publish.bundles.checks.study import Asked
+from mrpbench_publish.bundles.opened import Opened, Stored
+from mrpbench_publish.bundles.verdict import Fault
 
 
 def code_faults(bundle: Opened, asked: Asked, records: Sequence[Stored]) -> Iterator[Fault | str]:

@@ -6,10 +6,10 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from mrpbench_core.engine.bundles.opened import Opened, Stored
-from mrpbench_core.engine.bundles.verdict import Fault
 from mrpbench_core.engine.stages.plan import LATE_S
 from mrpbench_core.model.runs.status import PLANNED, RunStatus, Stage
+from mrpbench_publish.bundles.opened import Opened, Stored
+from mrpbench_publish.bundles.verdict import Fault
 
 _STAGES = {
     RunStatus.GOALS_MISSED: {Stage.EXECUTION},

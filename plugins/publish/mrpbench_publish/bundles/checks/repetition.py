@@ -6,14 +6,14 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.engine.bundles.checks.study import Asked
-from mrpbench_core.engine.bundles.opened import Stored
-from mrpbench_core.engine.bundles.verdict import Fault
 from mrpbench_core.engine.processes.machine import machine
 from mrpbench_core.engine.study.options import StudyOptions
 from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.engine.study.study import run_study
 from mrpbench_core.model.runs.status import FAILED, RunStatus
+from mrpbench_publish.bundles.checks.study import Asked
+from mrpbench_publish.bundles.opened import Stored
+from mrpbench_publish.bundles.verdict import Fault
 
 Pair = tuple[Stored, dict[str, Any]]
 """A record of the bundle, and the one that was made here."""

@@ -5,12 +5,12 @@ from typing import Any
 
 import attrs
 
-from mrpbench_core.engine.bundles.expected import Expected, Invocation, expect
-from mrpbench_core.engine.bundles.opened import Opened, Stored
-from mrpbench_core.engine.bundles.verdict import Fault
 from mrpbench_core.engine.loading.runs import StudyRun
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.plugins.local import is_local
+from mrpbench_publish.bundles.expected import Expected, Invocation, expect
+from mrpbench_publish.bundles.opened import Opened, Stored
+from mrpbench_publish.bundles.verdict import Fault
 
 
 @attrs.frozen(kw_only=True)

@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from mrpbench_publish.bundles.checks.clock import clock_faults
+from mrpbench_publish.bundles.opened import Stored
 
-from mrpbench_core.engine.bundles.checks.clock import clock_faults
-from mrpbench_core.engine.bundles.opened import Stored
 from mrpbench_core.engine.processes.machine import machine
 
 OTHER = {"processor": "another one"}
