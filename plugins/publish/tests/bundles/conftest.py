@@ -33,9 +33,44 @@ matrix:
 """
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _kept(kept_workers):
-    """Studies share their worker processes."""
+PLANNER = """\
+import os, time
+import attrs
+from mrpbench_core.api import Planner, option
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
+
+@attrs.frozen(kw_only=True)
+class Odd(Planner):
+    does: str = option("nothing", help="what to do before it finds no plan")
+
+    def plan(self, problem, budget):
+        if self.does == "exit":
+            os._exit(7)
+        while self.does == "hang":
+            time.sleep(1)
+        if self.does == "system_exit":
+            raise SystemExit("farewell")
+        return PlanResult(status=PlanStatus.UNSOLVABLE)
+"""
+
+
+@pytest.fixture
+def study(tmp_path, monkeypatch):
+    """A configuration with a planner of its own that misbehaves when asked to; its folder is the working directory."""
+    (tmp_path / "odd.py").write_text(PLANNER)
+    (tmp_path / "small.map").write_text(MAP)
+    monkeypatch.chdir(tmp_path)
+    return {
+        "name": "odd",
+        "world": {"plugin": "movingai", "file": "small.map"},
+        "roadmap": "grid",
+        "scenario": {"plugin": "random", "robots": 2},
+        "assigner": "identity",
+        "planner": {"plugin": "./odd.py:Odd"},
+        "simulator": "none",
+        "metrics": [],
+        "limits": {"planning": 1.0, "wall": 30.0},
+    }
 
 
 @pytest.fixture(scope="package")

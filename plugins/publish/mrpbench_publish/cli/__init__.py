@@ -1,1 +1,0 @@
-"""The commands `publish`, `verify` and `site`."""

@@ -1,7 +1,0 @@
-"""The commands of this distribution."""
-
-from mrpbench_core.cli.command import Command
-
-PUBLISH = Command("write results as a bundle that others can verify", "mrpbench_publish.cli.publish")
-VERIFY = Command("check published results, and repeat a sample of their runs", "mrpbench_publish.cli.verify")
-SITE = Command("make a static site of published results, with ranks", "mrpbench_publish.cli.site")
