@@ -16,11 +16,9 @@ from mrpbench_core.files.text import counted
 from mrpbench_core.store.run_files import digest
 from mrpbench_core.version import __version__
 from mrpbench_publish.bundles.checks.bag import description_faults, file_faults, reference_faults
-from mrpbench_publish.bundles.checks.clock import LEAST, clock_faults, usable
 from mrpbench_publish.bundles.checks.code import code_faults
 from mrpbench_publish.bundles.checks.instances import recording_faults, scenario_ids
 from mrpbench_publish.bundles.checks.records import (
-    copy_faults,
     record_faults,
     scenario_faults,
     scenario_key,
@@ -104,7 +102,7 @@ def _checks(file: Path, folder: Path, options: VerifyOptions, slots: str) -> Ite
     if missing := take_inputs(bundle, options.inputs):
         names = ", ".join(missing[:2]) + (", …" if len(missing) > 2 else "")
         why = f"the bundle leaves out {counted(len(missing), 'input')} ({names}); --inputs DIR gives them"
-        for name in ("study", "versions", "inputs", "scenarios", "recordings", "repetition", "clock"):
+        for name in ("study", "versions", "inputs", "scenarios", "recordings", "repetition"):
             yield checked(name, (), "", unchecked=why)
         return
     asked = read_studies(bundle, slots, trusted=options.trusted)
@@ -116,21 +114,18 @@ def _checks(file: Path, folder: Path, options: VerifyOptions, slots: str) -> Ite
     call_in_worker = _Calls(slots, options.trusted)
     yield _scenarios(known, runs, call_in_worker)
     yield _recordings(bundle, known, runs, call_in_worker)
-    yield from _repetitions(
-        attrs.evolve(asked, by_name={} if outside else asked.by_name), known, folder, slots, options
-    )
+    yield _repetitions(attrs.evolve(asked, by_name={} if outside else asked.by_name), known, folder, slots, options)
 
 
 def _check_records(bundle: Opened, records: Sequence[Stored]) -> Iterator[Check]:
     every = counted(len(records), "run")
-    yield checked("records", record_faults(bundle), every)
+    yield checked("records", [*record_faults(bundle), *scenario_faults(records)], every)
     yield checked("references", reference_faults(bundle), "records, invocations and recordings belong together")
     columns = {name: document["columns"] for name, document in bundle.documents.by_name.items()}
     yield checked(
         "statuses", _each(records, lambda stored: status_faults(stored, columns.get(stored.shard, {}))), every
     )
     yield checked("times", _each(records, timing_faults), "times agree with each other; they cannot be verified")
-    yield checked("copies", [*copy_faults(records), *scenario_faults(records)], every)
 
 
 def _check_studies(bundle: Opened, asked: Asked, records: Sequence[Stored], options: VerifyOptions) -> Iterator[Check]:
@@ -192,13 +187,9 @@ def _recordings(bundle: Opened, records: Sequence[Stored], runs: dict[str, Study
     return checked("recordings", faults, covered, unchecked=None if count else "there are no recordings")
 
 
-def _repetitions(
-    asked: Asked, records: Sequence[Stored], folder: Path, slots: str, options: VerifyOptions
-) -> Iterator[Check]:
+def _repetitions(asked: Asked, records: Sequence[Stored], folder: Path, slots: str, options: VerifyOptions) -> Check:
     if not options.rerun:
-        for name in ("repetition", "clock"):
-            yield checked(name, (), "", unchecked="no run was repeated (--rerun SHARE)")
-        return
+        return checked("repetition", (), "", unchecked="no run was repeated (--rerun SHARE)")
     by_id = {stored.run_id: stored for stored in records}
     chosen = [by_id[run_id] for run_id in drawn(by_id, options.rerun, str(options.seed))]
     pairs = repeat(asked, chosen, folder / "again", slots, options.workers, options.progress)
@@ -209,15 +200,7 @@ def _repetitions(
         covered += f"; {foreign} were made with another C library, and only their plans are compared"
     missing = {stored.run_id for stored in chosen} - {stored.run_id for stored, _ in pairs}
     faults = [*repetition_faults(pairs), *((run_id, "cannot be repeated here") for run_id in sorted(missing))]
-    yield checked("repetition", faults, covered, unchecked=None if pairs else "no run can be made here")
-    enough = len(usable(pairs)) >= LEAST
-    few = f"less than {LEAST} repeated runs planned long enough to compare times"
-    yield checked(
-        "clock",
-        clock_faults(pairs),
-        f"CPU times of {counted(len(usable(pairs)), 'run')}, by their distribution only",
-        unchecked=None if enough else few,
-    )
+    return checked("repetition", faults, covered, unchecked=None if pairs else "no run can be made here")
 
 
 def _each(records: Sequence[Stored], faults_of: Callable[[Stored], Iterator[str]]) -> Iterator[Fault]:

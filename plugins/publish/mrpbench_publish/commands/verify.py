@@ -21,7 +21,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
         "Exit code: 0 nothing was found, 1 something was, 2 the bundle cannot be read. Nothing that a bundle contains"
-        " is executed without --trust-sources. Measured times are compared by their distribution only."
+        " is executed without --trust-sources. Measured times cannot be verified."
     )
     parser.add_argument("bundle", metavar="BUNDLE", help="the zip file that `mrpbench publish` wrote")
     parser.add_argument(

@@ -133,7 +133,7 @@ def test_a_record_of_an_invocation_without_document(forger, found):
     found(forger.pack(), "references", "is not the document of this invocation")
 
 
-# Statuses, seeds and copies
+# Statuses and seeds
 
 
 def test_a_failure_that_became_a_success(forger, found):
@@ -175,18 +175,9 @@ def test_another_seed_than_the_configuration(forger, found):
     found(forger.pack(), "records", "its seed is not the one of its configuration")
 
 
-def test_rows_of_another_planner(forger, found):
-    records = forger.records()
-    good, bad = of_planner(records, "cbs"), of_planner(records, "prioritized")
-    for mine, other in zip(bad, good, strict=True):
-        mine |= {key: other[key] for key in ("metrics", "timing", "plan")}
-    forger.write(records)
-    found(forger.pack(), "copies", "to the last digit: it is a copy")
-
-
 def test_a_scenario_of_its_own(forger, found):
     forger.edit(lambda record: record.update(scenario_id="easy"))
-    found(forger.pack(), "copies", "has another scenario than other runs")
+    found(forger.pack(), "records", "has another scenario than other runs")
 
 
 # Versions and sources

@@ -24,7 +24,6 @@ _STAGES = {
 }
 """The stages in which runs end with a status; any for the others."""
 _MADE_LATER = {RunStatus.PROMISE_BROKEN, RunStatus.UNKNOWN}
-_CLOCKS = ("planning_s", "planning_cpu_s", "execution_wall_s")
 CPU_MARGIN_S = 0.1
 
 
@@ -105,19 +104,6 @@ def timing_faults(stored: Stored) -> Iterator[str]:
     if status == RunStatus.PLAN_TIMEOUT and wall is not None and not timing.get("clock_bound"):
         yield "is a timeout that no clock decided"
     yield from _history_faults(timing.get("planning_history"), wall)
-
-
-def copy_faults(records: Iterable[Stored]) -> Iterator[Fault]:
-    """Yield runs whose measured times are those of another run: clocks have nanoseconds, so times do not repeat."""
-    seen: dict[str, Stored] = {}
-    for stored in records:
-        timing = stored.record.get("timing") or {}
-        times = tuple(timing.get(key) for key in _CLOCKS)
-        if not any(times) or sum(isinstance(value, float) and value > 0 for value in times) < 2:
-            continue
-        other = seen.setdefault(repr(times), stored)
-        if other is not stored:
-            yield stored.run_id, f"has the times of run {other.run_id} to the last digit: it is a copy"
 
 
 def scenario_faults(records: Iterable[Stored]) -> Iterator[Fault]:
