@@ -92,6 +92,8 @@ def read_problem(file: Path) -> LorrProblem:
         size=head.number("agentSize", 0.01, 1, default=1.0) if season == 2026 else 1.0,
         delays=_delays(head) if season == 2026 else None,
     )
+    if season == 2023 and problem.reveal % 1:
+        raise head.error("numTasksReveal", f"should be a whole number of goals in 2023, is {problem.reveal:g}")
     if season > 2023 and not 1 <= problem.pool <= LARGEST_POOL:
         raise head.error("numTasksReveal", f"shows {problem.pool} tasks to {robots} robots; at least 1 is needed")
     return problem

@@ -48,6 +48,11 @@ def test_the_three_seasons_are_read(tmp_path):
         ({"version": "2024 LoRR"}, {"tasks": "2\n0,x\n2\n"}, r"t\.tasks:2: 'x' is no cell"),
         ({"version": "2024 LoRR"}, {"tasks": "3\n0\n2\n"}, r"t\.tasks: has 2 of 3 lines"),
         ({}, {}, r"t\.tasks:3: should hold one cell"),
+        (
+            {},
+            {"tasks": "2\n3\n2\n"},
+            r"p\.json:\d+: numTasksReveal: should be a whole number of goals in 2023, is 1\.5",
+        ),
         ({"version": "2024 LoRR", "numTasksReveal": 0.1}, {}, r"numTasksReveal: shows 0 tasks to 2 robots"),
         ({"version": "2024 LoRR", "mapFile": "none.map"}, {}, r"none\.map: no such file"),
         ({"version": "2026 LoRR", "delayConfig": {"minDelay": 3, "maxDelay": 1}}, {}, r"maxDelay: should be a whole"),
