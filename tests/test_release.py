@@ -63,6 +63,7 @@ OWN = {
     "mrpbench-core": ["mrpbench_core"],
     "mrpbench-native": ["mrpbench_native"],
     "mrpbench-standard": wheel_packages(ROOT / "plugins/pyproject.toml"),
+    "mrpbench-league": ["mrpbench_league"],
 }
 
 
@@ -73,7 +74,7 @@ def test_the_default_set_is_small():
     sizes = {name: size(name) for name in names - {"mrpbench"}}
     assert sum(sizes.values()) <= MOST_BYTES, sorted(sizes.items(), key=lambda item: -item[1])
     assert sizes["numpy"] > 10_000_000  # the measure measures
-    assert min(sizes[name] for name in OWN) > 100_000
+    assert min(sizes[name] for name in OWN) > 50_000
 
 
 @pytest.mark.parametrize("file", PROJECTS, ids=lambda file: project(file)["project"]["name"])

@@ -20,7 +20,7 @@ _METRICS = (
 )
 _PLANNERS = (
     *("astar", "prioritized", "cbs", "ecbs", "eecbs", "cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"),
-    *("pbs", "pibt", "lacam", "lns", "token_passing", "league", "example", "external"),
+    *("pbs", "pibt", "lacam", "lns", "token_passing", "example", "external"),
 )
 PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-standard": {
@@ -33,7 +33,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.metrics": _METRICS,
         "mrpbench.mppi_critics": _MPPI_CRITICS,
         "mrpbench.planners": _PLANNERS,
-        "mrpbench.simulators": ("league", "planar"),
+        "mrpbench.simulators": ("planar",),
     },
     "mrpbench-analysis": {"mrpbench.commands": ("analyze",)},
     "mrpbench-publish": {"mrpbench.commands": ("publish", "site", "verify")},
@@ -41,6 +41,13 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-bridges-ros2": {"mrpbench.navigators": ("ros2",), "mrpbench.hooks": ("ros2",)},
     "mrpbench-executors-dask": {"mrpbench.executors": ("dask",)},
     "mrpbench-exporters-rosbag2": {"mrpbench.exporters": ("rosbag2",), "mrpbench.importers": ("rosbag2",)},
+    "mrpbench-league": {
+        "mrpbench.commands": ("league-run", "league-score"),
+        "mrpbench.planners": ("league",),
+        "mrpbench.scenarios": ("lorr",),
+        "mrpbench.simulators": ("league",),
+        "mrpbench.task_sources": ("lorr",),
+    },
     "mrpbench-simulators-pybullet": {"mrpbench.simulators": ("pybullet",)},
 }
 """Names by entry-point group, by distribution. Of other distributions nothing is known before they are installed."""
@@ -49,6 +56,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
 EXTRAS = {
     "mrpbench-standard": "",
     "mrpbench-analysis": "",
+    "mrpbench-league": "",
     "mrpbench-publish": "",
     "mrpbench-assigners-ortools": "ortools",
     "mrpbench-bridges-ros2": "ros2",

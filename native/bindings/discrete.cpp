@@ -45,7 +45,7 @@ Delays delays_of(const nb::handle& given) {
   return found;
 }
 
-/// A problem as `mrpbench_core.files.lorr.problem.LorrProblem` describes it.
+/// A problem as `mrpbench_league.files.problem.LorrProblem` describes it.
 Problem problem_of(nb::handle given) {
   const auto blocked = attribute<nb::ndarray<const bool, nb::ndim<2>, nb::c_contig, nb::device::cpu>>(given, "blocked");
   const Vector<std::int32_t> start = attribute<Vector<std::int32_t>>(given, "start"),

@@ -1,7 +1,4 @@
-"""`mrpbench analyze BAG`: compute the metrics of runs for a recording of a real fleet or of another simulator.
-
-`mrpbench analyze OUTPUT.json` scores an output of the League of Robot Runners.
-"""
+"""`mrpbench analyze BAG`: compute the metrics of runs for a recording of a real fleet or of another simulator."""
 
 import argparse
 from pathlib import Path
@@ -25,16 +22,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         " when it first comes within --tolerance of it. Patterns for topics are options of the importer:"
         " `mrpbench plugins show importer:rosbag2`."
     )
-    parser.add_argument(
-        "bag",
-        metavar="BAG",
-        help="a rosbag2: a folder, or one .mcap or .db3 file; or a .json output of the League of Robot Runners",
-    )
+    parser.add_argument("bag", metavar="BAG", help="a rosbag2: a folder, or one .mcap or .db3 file")
     parser.add_argument("--world", metavar="FILE|NAME", help="file of a world, or name of a built-in world")
     parser.add_argument(
-        "--scenario",
-        metavar="FILE",
-        help="scenario file, as `mrpbench scenario CONFIG --write FILE` writes it; of a .json output, its problem",
+        "--scenario", metavar="FILE", help="scenario file, as `mrpbench scenario CONFIG --write FILE` writes it"
     )
     parser.add_argument(
         "--robots", default="", metavar="A,B,…", help="names or patterns of the robots, in the order of the scenario"
@@ -74,10 +65,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Measure the bag, store the record and print it."""
-    if arguments.bag.endswith(".json"):
-        from mrpbench_core.cli.output.league import analyze_output
-
-        return analyze_output(Path(arguments.bag), arguments.scenario, as_json=arguments.json)
     from mrpbench_core.engine.processes.call import in_worker
 
     out = arguments.out or str(Path("results", followed(arguments.bag).stem))
