@@ -1,20 +1,18 @@
 """Commands that installed distributions add to `mrpbench`.
 
 A distribution adds a command with an entry point in the group `mrpbench.commands`: its name is that of the command, its
-object is a `Command`. `mrpbench --help` imports this object, so the module that holds it imports nothing but this one.
+object is a `Command`. `mrpbench --help` imports this object, so the module that holds it imports nothing but this one,
+and this one imports nothing that is not needed to list commands.
 """
 
 import importlib
 from collections.abc import Container, Iterable, Iterator
-from itertools import groupby
+from importlib import metadata
 from types import ModuleType
 from typing import NamedTuple
 
 from mrpbench_core.files.errors import InputError, one_line
-from mrpbench_core.files.suggestions import did_you_mean
-from mrpbench_core.plugins.installed import Provider, load, providers
 from mrpbench_core.plugins.kinds import COMMANDS as GROUP
-from mrpbench_core.plugins.published import remedy
 
 
 class Command(NamedTuple):
@@ -33,12 +31,11 @@ def summaries(own: Container[str]) -> Iterator[tuple[str, str | InputError]]:
     Args:
         own: names of the commands of the core, which no distribution replaces.
     """
-    for name, offers in _offers():
+    for name, offers in _offers().items():
         try:
             if name in own:
-                origins = " and ".join(provider.origin for provider in offers)
-                raise InputError(f"command {name!r} of {origins} is not used: mrpbench-core has a command of this name")
-            yield name, _load(offers).summary
+                raise InputError(f"{_said(offers[0])} is not used: mrpbench-core has a command of this name")
+            yield name, _load(_only(offers)).summary
         except InputError as error:
             yield name, error
 
@@ -53,36 +50,58 @@ def find(name: str, own: Iterable[str]) -> tuple[str, ModuleType]:
     Raises:
         InputError: no installed distribution has it, several have it, or it cannot be imported.
     """
-    known = dict(_offers())
+    from mrpbench_core.files.suggestions import did_you_mean
+    from mrpbench_core.plugins.installed import incompatibility
+    from mrpbench_core.plugins.published import remedy
+
+    known = _offers()
     if name not in known:
         hint = remedy(name, GROUP) or did_you_mean(name, [*own, *known], "see --help")
         raise InputError(f"no command is called {name!r}", hint=hint)
-    command = _load(known[name])
+    entry = _only(known[name])
+    if problem := incompatibility((entry.dist and entry.dist.requires) or ()):
+        raise InputError(f"{_said(entry)} {problem}")
+    command = _load(entry)
     try:
         return command.summary, importlib.import_module(command.module)
     except Exception as error:
-        raise InputError(f"{_said(known[name][0])} cannot be imported: {one_line(error)}") from error
+        raise InputError(f"{_said(entry)} cannot be imported: {one_line(error)}") from error
 
 
-def _offers() -> Iterator[tuple[str, list[Provider]]]:
-    """Yield each name with the distributions' entry points that offer it."""
-    for name, offers in groupby(providers(GROUP), key=lambda provider: provider.name):
-        yield name, list(offers)
+def _offers() -> dict[str, list[metadata.EntryPoint]]:
+    """Entry points by the name that they offer."""
+    try:
+        entries = list(metadata.entry_points(group=GROUP))
+    except Exception:  # noqa: BLE001 - one distribution with damaged metadata must not cost the others
+        from mrpbench_core.plugins.installed import entry_points
+
+        entries = [entry for entry in entry_points() if entry.group == GROUP]
+    found: dict[str, list[metadata.EntryPoint]] = {}
+    for entry in sorted(entries, key=lambda entry: (entry.name, _origin(entry))):
+        found.setdefault(entry.name, []).append(entry)
+    return found
 
 
-def _load(offers: list[Provider]) -> Command:
-    """Import the `Command` that one distribution offers."""
-    first = offers[0]
+def _only(offers: list[metadata.EntryPoint]) -> metadata.EntryPoint:
     if len(offers) > 1:
-        origins = " and ".join(provider.origin for provider in offers)
-        raise InputError(f"command {first.name!r} is offered by {origins}", hint="uninstall one of them")
-    if first.problem:
-        raise InputError(f"{_said(first)} {first.problem}")
-    command = load(first)
+        origins = " and ".join(map(_origin, offers))
+        raise InputError(f"command {offers[0].name!r} is offered by {origins}", hint="uninstall one of them")
+    return offers[0]
+
+
+def _load(entry: metadata.EntryPoint) -> Command:
+    try:
+        command = entry.load()
+    except (Exception, SystemExit) as error:
+        raise InputError(f"{_said(entry)} cannot be imported: {one_line(error)}") from error
     if not isinstance(command, Command):
-        raise InputError(f"{_said(first)}: {first.value} is not a mrpbench_core.cli.command.Command")
+        raise InputError(f"{_said(entry)}: {entry.value} is not a mrpbench_core.cli.command.Command")
     return command
 
 
-def _said(provider: Provider) -> str:
-    return f"{provider.kind} {provider.name!r} of {provider.origin}"
+def _said(entry: metadata.EntryPoint) -> str:
+    return f"command {entry.name!r} of {_origin(entry)}"
+
+
+def _origin(entry: metadata.EntryPoint) -> str:
+    return f"{entry.dist.name} {entry.dist.version}" if entry.dist else "an unknown distribution"

@@ -35,6 +35,8 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.planners": _PLANNERS,
         "mrpbench.simulators": ("planar",),
     },
+    "mrpbench-analysis": {"mrpbench.commands": ("analyze",)},
+    "mrpbench-publish": {"mrpbench.commands": ("publish", "site", "verify")},
     "mrpbench-assigners-ortools": {"mrpbench.assigners": ("ortools_mip", "ortools_sat")},
     "mrpbench-bridges-ros2": {"mrpbench.navigators": ("ros2",), "mrpbench.hooks": ("ros2",)},
     "mrpbench-executors-dask": {"mrpbench.executors": ("dask",)},
@@ -53,7 +55,9 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
 
 EXTRAS = {
     "mrpbench-standard": "",
+    "mrpbench-analysis": "",
     "mrpbench-league": "",
+    "mrpbench-publish": "",
     "mrpbench-assigners-ortools": "ortools",
     "mrpbench-bridges-ros2": "ros2",
     "mrpbench-executors-dask": "dask",

@@ -63,7 +63,6 @@ def test_a_distribution_that_only_adds_commands_is_a_fact_of_the_installation(mr
             "command 'broken' of other 2.0 cannot be imported: AttributeError: module 'other' has no",
         ),
         ("broken", "raise SystemExit", (), "command 'broken' of other 2.0 cannot be imported: SystemExit"),
-        ("broken", "", ("mrpbench-core>=99",), "command 'broken' of other 2.0 needs mrpbench-core>=99, this is "),
         ("greet", "", (), "command 'greet' is offered by greeting 1.0 and other 2.0 (uninstall one of them)"),
     ],
 )
@@ -99,3 +98,11 @@ def test_no_distribution_replaces_a_command_of_the_core(mrpbench, install):
 def test_help_and_the_module_of_commands_do_not_import_numpy():
     code = f"{HELP}; import mrpbench_core.cli.command; sys.exit('numpy' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], stdout=subprocess.DEVNULL).returncode == 0
+
+
+def test_a_command_of_a_distribution_for_another_core_is_not_run(mrpbench, install):
+    code = CODE.format(module="new")
+    install("new", {GROUP: {"greet": "{module}:COMMAND"}}, code, requires=["mrpbench-core>=99"])
+    code, output, errors = mrpbench("greet", "r1")
+    assert (code, output) == (2, "")
+    assert errors.startswith("command 'greet' of new 1.0 needs mrpbench-core>=99, this is ")
