@@ -31,7 +31,8 @@ class Execution:
     @property
     def unexecuted(self) -> NDArray[np.int32]:
         """i4[k,3]: row of `letters`, robot, and letter of each action that was asked for and did not happen, because of
-        a delay, a fault or another robot; `T`: no answer came in time."""
+        a delay, a fault or another robot; `T`: no answer came in time.
+        """
     @property
     def events(self) -> NDArray[np.int32]:
         """i4[k,4]: time, robot, task, errands done; 0 errands: given to the robot (2023)."""

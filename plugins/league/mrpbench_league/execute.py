@@ -7,6 +7,7 @@ import attrs
 import numpy as np
 from mrpbench_native import discrete
 
+from mrpbench_core.model.common.arrays import Byte, Int32
 from mrpbench_league.files.motion import Motion, write_segments, write_steps
 from mrpbench_league.files.output import LorrOutput, write_output
 from mrpbench_league.files.problem import LorrProblem
@@ -83,8 +84,8 @@ def execute(problem: LorrProblem, duration: int, options: Options | None = None)
         own = np.ascontiguousarray(letters[:, robot])
         planned = own.copy()
         planned[rows[:, 0]] = rows[:, 2]
-        for texts, row in ((paths, own), (asked, planned)):
-            texts.append(write_segments(row, segments[:, robot], SEGMENT) if ticked else write_steps(row))
+        paths.append(_text(own, segments[:, robot], ticked))
+        asked.append(_text(planned, segments[:, robot], ticked))
         motion.append(Motion(own, ((0, len(own)),) if ticked else ()))
     delays: list[list[tuple[int, int]]] = [[] for _ in range(robots)]
     for robot, start, end in running.delays.tolist():
@@ -111,6 +112,10 @@ def execute(problem: LorrProblem, duration: int, options: Options | None = None)
         refused=running.refused,
         others={"plannerPaths": asked} | _others(problem, running, duration),
     )
+
+
+def _text(letters: Byte, states: Int32, ticked: bool) -> str:
+    return write_segments(letters, states, SEGMENT) if ticked else write_steps(letters)
 
 
 def _task(problem: LorrProblem, task: int, line: int, time: int) -> tuple[int, int, tuple[int, ...]]:
