@@ -6,7 +6,7 @@ UV := $(shell command -v uv)
 STAMP := $(VENV)/.installed
 JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
-INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
+INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/pyproject.toml plugins/*/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
 .PHONY: results-site help install explore pages anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds fuzz wheels docs links
 

@@ -1,17 +1,44 @@
 """Fixtures that every test folder shares."""
 
-from collections.abc import Iterator
+import shutil
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import settings
 
+from mrpbench_core.cli.main import main
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 
 # The same examples in every run, so that a change is judged by what it changes; `make explore` draws others.
 settings.register_profile("mrpbench", deadline=None, derandomize=True)  # a busy machine is no defect
 settings.register_profile("explore", deadline=None, print_blob=True)
 settings.load_profile("mrpbench")
+
+MAP = "type octile\nheight 3\nwidth 3\nmap\n...\n...\n...\n"
+STUDY = """\
+name: tiny
+world: {plugin: movingai, file: tiny.map}
+roadmap: grid
+scenario: {plugin: random, robots: 2}
+assigner: identity
+planner: example
+simulator: none
+metrics: []
+matrix:
+  seed: 0..1
+"""
+FLAGS = (
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+)
 
 
 @pytest.fixture(scope="module")
@@ -28,3 +55,48 @@ def shared_data() -> Path:
     if not folder.is_dir():
         pytest.skip("the public reference data are not next to the checkout")
     return folder
+
+
+@pytest.fixture(scope="session")
+def tiny_map() -> str:
+    """Return nine free cells as a MovingAI map."""
+    return MAP
+
+
+@pytest.fixture
+def mrpbench(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Callable[..., tuple[int, str, str]]:
+    """Return a function that runs a command in a folder with a tiny study and gives exit code, output and errors."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "tiny.map").write_text(MAP)
+    (tmp_path / "tiny.yaml").write_text(STUDY)
+
+    def invoke(*words: object) -> tuple[int, str, str]:
+        try:
+            code = main([str(word) for word in words])
+        except SystemExit as end:
+            code = int(end.code or 0)
+        captured = capsys.readouterr()
+        return code, captured.out, captured.err
+
+    return invoke
+
+
+@pytest.fixture(scope="session")
+def browser(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Any]:
+    """Return headless Chromium with a window of 1280 by 800 pixels; skips where there is none."""
+    webdriver = pytest.importorskip("selenium.webdriver", reason="the tests of the page in a browser need selenium")
+    chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
+    if chromium is None or driver is None:
+        pytest.skip("the tests of the page in a browser need chromium and chromedriver")
+    options = webdriver.ChromeOptions()
+    for flag in (*FLAGS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
+        options.add_argument(flag)
+    options.binary_location = chromium
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
+    found = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
+    screen = {"width": 1280, "height": 800, "deviceScaleFactor": 1, "mobile": False}
+    found.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
+    yield found
+    found.quit()

@@ -12,11 +12,11 @@ from pathlib import Path
 
 import attrs
 import numpy as np
+from mrpbench_league.execute import Options, execute
+from mrpbench_league.files.problem import LorrProblem, read_problem
+from mrpbench_league.scoring.rescore import rescore
 from mrpbench_native import discrete
-from mrpbench_simulators_league import Options, execute
 
-from mrpbench_core.checking.lorr.rescore import rescore
-from mrpbench_core.files.lorr.problem import LorrProblem, read_problem
 from mrpbench_core.files.movingai import read_movingai_map
 from mrpbench_core.model.common.arrays import Bool
 

@@ -5,10 +5,11 @@ import json
 import tempfile
 from pathlib import Path
 
+from mrpbench_publish.bundles.publish import PublishOptions, publish
+from mrpbench_publish.bundles.verdict import Check
+from mrpbench_publish.bundles.verify import VerifyOptions, verify
+
 from mrpbench_core import load, run
-from mrpbench_core.engine.bundles.publish import PublishOptions, publish
-from mrpbench_core.engine.bundles.verdict import Check
-from mrpbench_core.engine.bundles.verify import VerifyOptions, verify
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.errors import InputError
 

@@ -3,9 +3,9 @@
 import json
 from pathlib import Path
 
-from mrpbench_core.checking.lorr.rescore import rescore
-from mrpbench_core.files.lorr.output import read_output
-from mrpbench_core.files.lorr.problem import read_problem
+from mrpbench_league.files.output import read_output
+from mrpbench_league.files.problem import read_problem
+from mrpbench_league.scoring.rescore import rescore
 
 FILES = {
     "m.map": "type octile\nheight 2\nwidth 3\nmap\n.@.\n...\n",

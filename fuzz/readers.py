@@ -16,6 +16,7 @@ import numpy as np
 from bundles import bundles, read_bundle
 from containers import in_zip, mutate_database, mutate_mcap
 from examples import RUN, bags, example, recording, records, scenarios
+from mrpbench_analysis.observed_run import Sampling, observe, observe_own
 from mrpbench_controllers_dwb.dwb import Dwb
 from mrpbench_exporters_rosbag2.exporter import Rosbag2
 from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
@@ -28,7 +29,6 @@ from mutation import Mutate, mutate_bytes, mutate_npy, mutate_text
 from mrpbench_core.builtin.task_sources.trace import read_arrivals
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.analysis.observed_run import Sampling, observe, observe_own
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.files.scenario import read_scenario

@@ -4,7 +4,14 @@ from typing import Any
 
 from hatchling.metadata.plugin.interface import MetadataHookInterface
 
-DEFAULT = ("mrpbench-core", "mrpbench-native", "mrpbench-standard")
+DEFAULT = (
+    "mrpbench-core",
+    "mrpbench-native",
+    "mrpbench-standard",
+    "mrpbench-analysis",
+    "mrpbench-league",
+    "mrpbench-publish",
+)
 EXTRAS = {
     "dask": "mrpbench-executors-dask",
     "figures": "mrpbench-core[figures]",

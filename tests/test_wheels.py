@@ -46,7 +46,7 @@ def test_every_package_is_in_one_distribution(tmp_path, monkeypatch):
         packed = {Path(name).parts[-2] for name in archive.getnames() if name.endswith("/py.typed")}
     owners = [packages(file) for file in ROOT.glob("plugins/**/pyproject.toml")]
     assert sorted(name for names in owners for name in names) == sorted(
-        file.parent.name for file in ROOT.glob("plugins/*/*/*/py.typed")
+        file.parent.name for file in ROOT.glob("plugins/**/py.typed")
     )
     assert packed == packages(ROOT / "plugins/pyproject.toml")
 

@@ -7,7 +7,8 @@ from typing import Any
 
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.engine.processes.machine import machine
-from mrpbench_core.plugins.installed import distribution, installed
+from mrpbench_core.plugins.installed import distribution, installed, providers
+from mrpbench_core.plugins.kinds import COMMANDS
 from mrpbench_core.version import __version__
 
 
@@ -18,7 +19,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the facts."""
-    owners = sorted({(provider.distribution, provider.version) for provider in installed()})
+    owners = sorted({(provider.distribution, provider.version) for provider in (*installed(), *providers(COMMANDS))})
     facts: dict[str, Any] = {
         "mrpbench": __version__,
         "executable": sys.executable,

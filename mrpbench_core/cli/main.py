@@ -1,7 +1,8 @@
-"""The command `mrpbench`. Each command is a module of this package, imported only when it is named.
+"""The command `mrpbench`. Each command is a module, imported only when it is named.
 
 A command's module has `configure(parser)`, which declares its arguments, and `run(arguments) -> int`, which returns the
-exit code. Errors of the user are raised as `InputError` and printed here, one line each.
+exit code. Errors of the user are raised as `InputError` and printed here, one line each. Other distributions add
+commands, see `mrpbench_core.cli.command`.
 """
 
 import argparse
@@ -31,10 +32,6 @@ COMMANDS = {
     "saturate": "find the rate of tasks that the fleets of a study can serve",
     "view": "write a replay of a run as an HTML page",
     "export": "write a stored run in another format",
-    "analyze": "compute metrics of a bag from a real fleet or another simulator",
-    "publish": "write results as a bundle that others can verify",
-    "verify": "check published results, and repeat a sample of their runs",
-    "site": "make a static site of published results, with ranks",
     "scenario": "write the scenarios of a study to files, for publication",
     "world": "print the facts and faults of a map, draw it, convert it",
     "plugins": "list installed plugins, or show the options of one",
@@ -91,30 +88,42 @@ def _main(words: list[str]) -> int:
 
 
 def _dispatch(words: list[str]) -> int:
-    top = Parser(
-        prog="mrpbench",
-        description="Benchmark for multi-robot planning, from task assignment to execution.",
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-        epilog="commands:\n"
-        + "\n".join(f"  {name:<10} {text}" for name, text in COMMANDS.items())
-        + "\n\n`mrpbench COMMAND --help` describes a command.",
-        usage="mrpbench [-h] [--version] COMMAND …",
-    )
-    top.add_argument("--version", action="version", version=f"mrpbench {__version__}")
-    if not words or words[0].startswith("-"):
+    name = words[0] if words else "--help"
+    if name.startswith("-"):
+        top = Parser(
+            prog="mrpbench",
+            description="Benchmark for multi-robot planning, from task assignment to execution.",
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+            usage="mrpbench [-h] [--version] COMMAND …",
+        )
+        top.add_argument("--version", action="version", version=f"mrpbench {__version__}")
+        top.epilog = None if name == "--version" else _list_of_commands()
         top.parse_args(words)
         top.print_help()
         return 0 if words else 2
-    name = words[0]
-    if name not in COMMANDS:
-        from mrpbench_core.files.suggestions import did_you_mean
+    if name in COMMANDS:
+        summary, command = COMMANDS[name], importlib.import_module(f"mrpbench_core.cli.{name.replace('-', '_')}")
+    else:
+        from mrpbench_core.cli.command import find
 
-        raise InputError(f"no command is called {name!r}", hint=did_you_mean(name, COMMANDS, "see --help"))
-    command = importlib.import_module(f"mrpbench_core.cli.{name.replace('-', '_')}")
-    parser = Parser(prog=f"mrpbench {name}", description=COMMANDS[name][0].upper() + COMMANDS[name][1:] + ".")
+        summary, command = find(name, COMMANDS)
+    parser = Parser(prog=f"mrpbench {name}", description=f"{summary[:1].upper()}{summary[1:]}.")
     command.configure(parser)
     code: int = command.run(parser.parse_intermixed_args(words[1:]))
     return code
+
+
+def _list_of_commands() -> str:
+    from mrpbench_core.cli.command import summaries
+
+    listed, unusable = dict(COMMANDS), ""
+    for name, summary in summaries(COMMANDS):
+        if isinstance(summary, InputError):
+            unusable += f"\n{summary}"
+        else:
+            listed[name] = summary
+    lines = "".join(f"  {name:<10} {summary}\n" for name, summary in listed.items())
+    return f"commands:\n{lines}\n`mrpbench COMMAND --help` describes a command.{unusable}"
 
 
 def _input_errors(errors: Sequence[InputError]) -> int:

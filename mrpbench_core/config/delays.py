@@ -17,7 +17,7 @@ def _not_below_min(delays: "Delays", _: "attrs.Attribute[int]", value: int) -> N
 
 @attrs.frozen(kw_only=True)
 class Delays:
-    """Delays of robots during execution; none by default. Stops and their names are those of LoRR 2026.
+    """Delays of robots during execution; none by default. Decision 22 gives the source of the model of stops.
 
     Robots that draw a stop also stop while they wait or after they have arrived. Streams are keyed by seed, repeat and
     robot, so all planners and dispatchers meet the same delays. An adversary draws nothing: its attack follows from the

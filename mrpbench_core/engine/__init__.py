@@ -5,6 +5,4 @@
 - `pipeline`: one run, stage after stage;
 - `stages`: prepare, assign, plan, judge, execute, export, measure;
 - `execution`: the loop that executes a plan.
-
-`analysis` measures recordings of other fleets instead.
 """

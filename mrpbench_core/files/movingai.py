@@ -1,7 +1,7 @@
 """Rasters of the MovingAI benchmark (`.map`).
 
 Sturtevant, "Benchmarks for Grid-Based Pathfinding", IEEE Transactions on Computational Intelligence and
-AI in Games, 2012. The League of Robot Runners adds the letter `E`.
+AI in Games, 2012. Maps of warehouses add the letter `E`.
 """
 
 from pathlib import Path

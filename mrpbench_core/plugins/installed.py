@@ -17,7 +17,7 @@ from packaging.requirements import InvalidRequirement, Requirement
 
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.plugins.importing import is_interrupt, watched
-from mrpbench_core.plugins.kinds import PREFIX, kind_of
+from mrpbench_core.plugins.kinds import COMMANDS, PREFIX, kind_of
 
 CORE = "mrpbench-core"
 _NAMES_CORE = re.compile(r"\s*mrpbench[-_.]+core(?![\w.-]*\w)", re.IGNORECASE).match
@@ -45,7 +45,7 @@ class Provider:
 
 def installed() -> tuple[Provider, ...]:
     """Return all components and hooks of installed distributions, by kind and name."""
-    return tuple(provider for group in sorted(_scan(_path())) for provider in _scan(_path())[group])
+    return tuple(provider for group in sorted(_scan(_path())) if group != COMMANDS for provider in providers(group))
 
 
 def providers(group: str) -> tuple[Provider, ...]:

@@ -26,6 +26,8 @@ GROUPS = {
 PREFIX = "mrpbench."
 HOOKS = "mrpbench.hooks"
 """Group of the lifecycle hooks, which are not components."""
+COMMANDS = "mrpbench.commands"
+"""Group of the commands that distributions add to `mrpbench`, which are not plugins of runs."""
 
 
 def kind_of(group: str) -> str:

@@ -4,6 +4,7 @@ A test compares this table with the entry points of the distributions.
 """
 
 from mrpbench_core.files.extras import pip
+from mrpbench_core.plugins.kinds import COMMANDS
 
 _CRITICS = (
     *("RotateToGoal", "Oscillation", "BaseObstacle", "ObstacleFootprint", "GoalAlign"),
@@ -19,7 +20,7 @@ _METRICS = (
 )
 _PLANNERS = (
     *("astar", "prioritized", "cbs", "ecbs", "eecbs", "cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"),
-    *("pbs", "pibt", "lacam", "lns", "token_passing", "league", "example", "external"),
+    *("pbs", "pibt", "lacam", "lns", "token_passing", "example", "external"),
 )
 PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-standard": {
@@ -32,12 +33,21 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.metrics": _METRICS,
         "mrpbench.mppi_critics": _MPPI_CRITICS,
         "mrpbench.planners": _PLANNERS,
-        "mrpbench.simulators": ("league", "planar"),
+        "mrpbench.simulators": ("planar",),
     },
+    "mrpbench-analysis": {"mrpbench.commands": ("analyze",)},
+    "mrpbench-publish": {"mrpbench.commands": ("publish", "site", "verify")},
     "mrpbench-assigners-ortools": {"mrpbench.assigners": ("ortools_mip", "ortools_sat")},
     "mrpbench-bridges-ros2": {"mrpbench.navigators": ("ros2",), "mrpbench.hooks": ("ros2",)},
     "mrpbench-executors-dask": {"mrpbench.executors": ("dask",)},
     "mrpbench-exporters-rosbag2": {"mrpbench.exporters": ("rosbag2",), "mrpbench.importers": ("rosbag2",)},
+    "mrpbench-league": {
+        "mrpbench.commands": ("league-run", "league-score"),
+        "mrpbench.planners": ("league",),
+        "mrpbench.scenarios": ("lorr",),
+        "mrpbench.simulators": ("league",),
+        "mrpbench.task_sources": ("lorr",),
+    },
     "mrpbench-simulators-pybullet": {"mrpbench.simulators": ("pybullet",)},
 }
 """Names by entry-point group, by distribution. Of other distributions nothing is known before they are installed."""
@@ -45,6 +55,9 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
 
 EXTRAS = {
     "mrpbench-standard": "",
+    "mrpbench-analysis": "",
+    "mrpbench-league": "",
+    "mrpbench-publish": "",
     "mrpbench-assigners-ortools": "ortools",
     "mrpbench-bridges-ros2": "ros2",
     "mrpbench-executors-dask": "dask",
@@ -55,8 +68,14 @@ EXTRAS = {
 
 
 def remedy(name: str, group: str | None = None) -> str | None:
-    """Return which distribution of this project has a plugin and how to install it, of any group if none is given."""
+    """Return which distribution of this project has a plugin or command and how to install it.
+
+    Args:
+        name: the plugin or command.
+        group: its entry-point group; without one, plugins of all kinds.
+    """
     for owner, offers in PUBLISHED.items():
-        if any(name in names for offered, names in offers.items() if group in (None, offered)):
+        groups = [group] if group else [offered for offered in offers if offered != COMMANDS]
+        if any(name in offers.get(offered, ()) for offered in groups):
             return f"{owner} has it: {pip(EXTRAS[owner])}"
     return None

@@ -33,6 +33,9 @@ def test_entry_points_that_cannot_be_read_are_told_by_the_list(folder, content, 
     assert "example" in capsys.readouterr().out
     (line,) = caplog.messages
     assert line.startswith("acme_odd-1.0.dist-info has entry points that cannot be read: ")
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    assert "\n  publish " in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -2,23 +2,12 @@
 
 import json
 import re
-import shutil
 from html.parser import HTMLParser
 
 import pytest
 
 from mrpbench_core.store.results import load
 
-FLAGS = (
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-)
 INVOCATION = """\
 columns:
   planning.cost: {unit: s, better: lower, description: what it costs, source: ''}
@@ -116,25 +105,6 @@ def results(tmp_path, written):
 def record():
     """Return a function that makes a record."""
     return made
-
-
-@pytest.fixture(scope="package")
-def browser(tmp_path_factory):
-    """Return headless Chromium with a window of 1280 by 800 pixels; skips where there is none."""
-    webdriver = pytest.importorskip("selenium.webdriver", reason="the tests of the page in a browser need selenium")
-    chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
-    if chromium is None or driver is None:
-        pytest.skip("the tests of the page in a browser need chromium and chromedriver")
-    options = webdriver.ChromeOptions()
-    for flag in (*FLAGS, f"--user-data-dir={tmp_path_factory.mktemp('profile')}"):
-        options.add_argument(flag)
-    options.binary_location = chromium
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
-    found = webdriver.Chrome(options=options, service=webdriver.ChromeService(driver))
-    screen = {"width": 1280, "height": 800, "deviceScaleFactor": 1, "mobile": False}
-    found.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", screen)
-    yield found
-    found.quit()
 
 
 @pytest.fixture(scope="module", autouse=True)

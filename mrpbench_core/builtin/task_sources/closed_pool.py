@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Sequence
-from typing import Protocol
 
 import attrs
 
@@ -18,8 +17,8 @@ from mrpbench_core.model.worlds.world import World
 
 @attrs.frozen(kw_only=True)
 class ClosedPool(AnyPlace):
-    """A finished task is replaced at once, as in the League of Robot Runners: floor(`per_robot` · robots) are always
-    unfinished. Errands are drawn at random places of the world.
+    """A finished task is replaced at once: floor(`per_robot` · robots) are always unfinished. Errands are drawn at
+    random places of the world.
     """
 
     per_robot: float = option(1.5, help="unfinished tasks per robot", validator=between(1e-3, 1000))
@@ -35,21 +34,10 @@ class ClosedPool(AnyPlace):
         return ClosedPoolStream(Drawing(self, self.places(world, roadmap), seed), size, self.total)
 
 
-class Draws(Protocol):
-    """Gives tasks by their index."""
-
-    @property
-    def places(self) -> tuple[Float, Int16]:
-        """Positions f8[k,2] and levels i2[k] of all errands."""
-
-    def task(self, index: int, release: float) -> Task:
-        """Return task `index`, released at `release` seconds."""
-
-
 class ClosedPoolStream(TaskStream):
     """Keeps `size` tasks unfinished, as long as there are any of the `total`."""
 
-    def __init__(self, drawing: Draws, size: int, total: int | None) -> None:
+    def __init__(self, drawing: Drawing, size: int, total: int | None) -> None:
         self._drawing, self._size = drawing, size
         self._total = math.inf if total is None else total
         self._index = 0

@@ -1,4 +1,4 @@
-// A problem of the League of Robot Runners; what its fields mean is in mrpbench_core/files/lorr/problem.py.
+// A problem of the League of Robot Runners; what its fields mean is in plugins/league/mrpbench_league/files/problem.py.
 #pragma once
 
 #include <cstdint>

@@ -27,7 +27,12 @@ class Execution:
         """i4[n,3]: row, column, heading."""
     @property
     def letters(self) -> NDArray[np.uint8]:
-        """u1[T,n]: ASCII letters of actions, see `mrpbench_core.files.lorr.motion`."""
+        """u1[T,n]: ASCII letters of actions, see `mrpbench_league.files.motion`."""
+    @property
+    def unexecuted(self) -> NDArray[np.int32]:
+        """i4[k,3]: row of `letters`, robot, and letter of each action that was asked for and did not happen, because of
+        a delay, a fault or another robot; `T`: no answer came in time.
+        """
     @property
     def events(self) -> NDArray[np.int32]:
         """i4[k,4]: time, robot, task, errands done; 0 errands: given to the robot (2023)."""
@@ -77,7 +82,7 @@ def open(  # noqa: A001 - as `io.open`
     """Begin an execution; for 2026 this makes the first plan.
 
     Args:
-        problem: a `mrpbench_core.files.lorr.problem.LorrProblem`.
+        problem: a `mrpbench_league.files.problem.LorrProblem`.
         planner: `pibt` or `epibt`.
         depth: actions of an operation of `epibt`: 3, 4 or 5.
         improve: large neighbourhood search of `epibt`.

@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
+from mrpbench_analysis.analysis import Analysis, analyze
 from mrpbench_exporters_rosbag2 import Rosbag2
 from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
 
 from mrpbench_core import run
 from mrpbench_core.api import Metric
 from mrpbench_core.cli.main import main
-from mrpbench_core.engine.analysis.analysis import Analysis, analyze
 from mrpbench_core.plugins.registry import Registry
 
 NAN = float("nan")

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from mrpbench_analysis.observed_run import Sampling, observe
 from mrpbench_exporters_rosbag2 import Rosbag2
 from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
 
-from mrpbench_core.engine.analysis.observed_run import Sampling, observe
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.scenario import Scenario, Task
 

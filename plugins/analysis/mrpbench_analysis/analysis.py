@@ -1,0 +1,256 @@
+"""Measures a recording of a real fleet or of another simulator, and stores the result as a record."""
+
+import hashlib
+import os
+from datetime import UTC, datetime
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any
+
+import attrs
+import numpy as np
+
+from mrpbench_analysis.observed_run import ObservedRun, Sampling, observe, observe_own
+from mrpbench_core.api.component import Component
+from mrpbench_core.api.importer import Importer, Observed
+from mrpbench_core.api.metric import Metric
+from mrpbench_core.api.world import WorldSource
+from mrpbench_core.config.canonical import canonical_component
+from mrpbench_core.config.settings import FleetEntry
+from mrpbench_core.engine.loading.versions import with_versions
+from mrpbench_core.engine.processes.machine import machine
+from mrpbench_core.engine.record import RunError, RunRecord, StoredRecord
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.jsonl import Writer, line
+from mrpbench_core.files.links import followed
+from mrpbench_core.files.output import sync_file_system
+from mrpbench_core.files.robot import load_robot
+from mrpbench_core.files.scenario import read_scenario
+from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.motion import Mode
+from mrpbench_core.model.runs.routes import with_latest_routes
+from mrpbench_core.model.runs.run import FinishedRun, RunContext
+from mrpbench_core.model.runs.status import RunStatus, Stage
+from mrpbench_core.plugins.provenance import provenance
+from mrpbench_core.referee.measuring import describe, measure
+from mrpbench_core.store.folder import ResultsFolder, new_invocation
+from mrpbench_core.store.invocation import write_document
+from mrpbench_core.store.lock import locked
+from mrpbench_core.store.recording import RecordingWriter
+from mrpbench_core.store.results import Results
+from mrpbench_core.store.run_files import seal
+
+BLOCK = 2**20
+UNIDENTIFYING = ("name", "metrics", "simulator")
+LENGTH = 16
+"""Hexadecimal digits of a run id."""
+
+
+@attrs.frozen(kw_only=True)
+class Analysis:
+    """The recording to measure, and how to measure it."""
+
+    bag: Path
+    importer: Importer
+    metrics: dict[str, Metric]
+    world: WorldSource | None = None
+    """None = as the recording says, which only those of mrpbench do."""
+    scenario: Path | None = None
+    robot: str = "turtlebot3_burger"
+    """Model of all robots, by name or file."""
+    robots: tuple[str, ...] = ()
+    """Names or shell patterns, in the scenario's order; () = all."""
+    sampling: Sampling = Sampling()
+    label: str = "recorded"
+    """The label that tables show in the column `simulator`."""
+    out: Path = Path("results")
+
+
+def analyze(analysis: Analysis) -> dict[str, Any]:
+    """Measure, keep the record and the recording in the results folder, and return the record.
+
+    Raises:
+        InputError: the recording cannot be read or does not fit the scenario; says what there is.
+    """
+    observed = _in_order(analysis.importer.read(analysis.bag, analysis.robots), analysis.robots)
+    found = _observe(analysis, observed)
+    identity = _identity(analysis, found)
+    first = attrs.evolve(found.context, run_id=identity)
+    known = {name: rows for name, rows in found.channels.items() if not (found.gaps and name == "truth")}
+    channels = {name: _loader(rows) for name, rows in known.items()}
+    context = with_latest_routes(first, channels)
+    run = FinishedRun(
+        context=context,
+        executed=True,
+        channels=channels,
+        alike=found.alike,
+        first_routes=first.routes,
+        ended=not found.open_ends,
+    )
+    values, reasons = measure(analysis.metrics, run)
+    for lacking, why in (("no truth", found.gaps), ("no end", found.open_ends)):
+        if why:
+            reasons |= {name: "; ".join(why) for name, reason in reasons.items() if reason.startswith(lacking)}
+    status, message = _status(found, context)
+    record = StoredRecord(
+        run=RunRecord(
+            run_id=identity,
+            scenario_id=context.scenario.id,
+            status=status,
+            error=None if message is None else RunError(stage=Stage.ANALYSIS, message=message),
+            metrics=values,
+            unmeasured=reasons,
+        ),
+        attempt=1,
+        config=_config(analysis, context.fleet),
+        seed=0,
+        repeat=0,
+        provenance={**_code(analysis), "machine": machine(), "live": False},
+        analysis={
+            "bag": followed(analysis.bag).name,
+            "sources": {track.robot: f"{track.source}: {track.topic}" for track in found.tracks},
+            "planned": run.planned,
+            "notes": [*found.notes, *found.gaps, *_unknown_end(found)],
+        },
+    )
+    return _keep(analysis, attrs.evolve(found, context=first), record).document()
+
+
+def _loader(rows: Any) -> Any:
+    return lambda: rows
+
+
+def _in_order(observed: Observed, robots: tuple[str, ...]) -> Observed:
+    """Tracks in the order in which their robots are named; those that one pattern names keep their own."""
+    if not robots:
+        return observed
+    rank = {
+        track.robot: next(index for index, pattern in enumerate(robots) if fnmatchcase(track.robot, pattern))
+        for track in observed.tracks
+    }
+    return attrs.evolve(observed, tracks=tuple(sorted(observed.tracks, key=lambda track: rank[track.robot])))
+
+
+def _observe(analysis: Analysis, observed: Observed) -> ObservedRun:
+    own = observed.context
+    scenario = None if analysis.scenario is None else read_scenario(analysis.scenario)
+    if own is not None and scenario is not None and scenario.id != own.scenario.id:
+        raise InputError(
+            f"is scenario {scenario.id}, the recording was made of {own.scenario.id}", file=analysis.scenario
+        )
+    cut = analysis.sampling.since is not None or analysis.sampling.until is not None
+    names = tuple(track.robot for track in observed.tracks)
+    if own is not None and "time" in observed.channels and names == own.fleet.names and not cut:
+        return observe_own(observed, own)
+    world = None if analysis.world is None else analysis.world.load()
+    if own is not None:
+        world, scenario = world or own.world, own.scenario
+    for value, name in ((world, "--world"), (scenario, "--scenario")):
+        if value is None:
+            raise InputError(f"a recording that mrpbench did not write needs {name}", file=analysis.bag)
+    assert world is not None
+    assert scenario is not None
+    if own is not None:
+        return observe(observed, world, own.fleet, scenario, analysis.sampling, assigned=own.assigned)
+    fleet = Fleet(robots=(load_robot(analysis.robot),) * len(scenario.start))
+    ordered = len(analysis.robots) == len(scenario.start)
+    return observe(observed, world, fleet, scenario, analysis.sampling, ordered=ordered)
+
+
+def _unknown_end(found: ObservedRun) -> list[str]:
+    """The note about an end that is not known."""
+    return [f"how the run ended is unknown: {'; '.join(found.open_ends)}"] if found.open_ends else []
+
+
+def _status(found: ObservedRun, context: RunContext) -> tuple[RunStatus, str | None]:
+    """The status of the run, as far as the recording shows it, and the reason if it did not succeed."""
+    last = found.channels["reached"][-1]
+    arrived = last >= np.array([route.last_move for route in context.routes])
+    if arrived.all():
+        return RunStatus.SUCCEEDED, None
+    mode = found.channels.get("mode")
+    if mode is not None and (mode[-1] == Mode.ABORTED).any():
+        return RunStatus.EXECUTION_ABORTED, "a robot gave up before all had arrived"
+    if found.open_ends:
+        return RunStatus.UNKNOWN, "; ".join(found.open_ends)
+    missed = f"{np.count_nonzero(~arrived)} of {len(arrived)} robots are not seen to arrive"
+    return RunStatus.GOALS_MISSED, "; ".join((missed, *found.gaps))
+
+
+def _config(analysis: Analysis, fleet: Fleet) -> dict[str, Any]:
+    """The known facts of the run under configuration keys, so that tables can compare it with other runs."""
+    plain: dict[str, Any] = {"name": analysis.out.name}
+    if analysis.world is not None:
+        plain["world"] = _plain(analysis.world)
+    models = [robot.name for robot in fleet.profiles[0]]
+    return plain | {
+        "fleet": [dict.fromkeys(attrs.fields_dict(FleetEntry)) | {"robot": name} for name in models],
+        "simulator": {"plugin": analysis.label},
+        "metrics": [_plain(metric) for metric in analysis.metrics.values()],
+        "recording": {"rate": analysis.sampling.rate},
+        "analysis": {"importer": _plain(analysis.importer), **attrs.asdict(analysis.sampling)},
+    }
+
+
+def _plain(component: Component) -> dict[str, Any]:
+    return canonical_component(component, Path.cwd())
+
+
+def _identity(analysis: Analysis, found: ObservedRun) -> str:
+    """Hash of the bytes of the recording and of the options of the analysis, without metrics and paths of files."""
+    digest = hashlib.sha256()
+    files = [analysis.bag] if analysis.bag.is_file() else sorted(analysis.bag.iterdir())
+    for file in (file for file in files if file.is_file()):
+        with file.open("rb") as stream:
+            while block := stream.read(BLOCK):
+                digest.update(block)
+    config = {key: value for key, value in _config(analysis, found.context.fleet).items() if key not in UNIDENTIFYING}
+    config["robots"], config["scenario"] = analysis.robots, found.context.scenario.id
+    digest.update(line(config).encode())
+    return digest.hexdigest()[:LENGTH]
+
+
+def _code(analysis: Analysis) -> dict[str, Any]:
+    return with_versions(provenance([analysis.importer, analysis.world, *analysis.metrics.values()], Path.cwd()))
+
+
+def _keep(analysis: Analysis, found: ObservedRun, record: StoredRecord) -> StoredRecord:
+    """Store recording and record; returns the record with the number of this attempt."""
+    folder = ResultsFolder(analysis.out)
+    folder.create()
+    with locked(folder.path):
+        folder.sweep()
+        run_id = record.run.run_id
+        before = Results(folder, only=[run_id]).entry(run_id)
+        attempt = 1 if before is None else before.attempt + 1
+        record = attrs.evolve(record, attempt=attempt)
+        invocation = new_invocation()
+        folder.forget(run_id, attempt)
+        paths = folder.run(run_id, attempt)
+        writer = RecordingWriter(paths.recording, found.context)
+        try:
+            writer.write(found.channels)
+        except BaseException:
+            writer.discard()
+            raise
+        writer.close()
+        record.run.files = seal(paths)
+        sync_file_system(folder.path)
+        digest = write_document(folder.invocation(invocation), _facts(analysis, record, invocation))
+        record = attrs.evolve(record, invocation=f"{digest}  invocations/{invocation}.yaml")
+        with Writer(folder.shard(invocation), exclusive=True) as shard:
+            shard.write(record.document())
+        folder.forget_before(run_id, attempt)
+    return record
+
+
+def _facts(analysis: Analysis, record: StoredRecord, invocation: str) -> dict[str, Any]:
+    return {
+        "invocation": invocation,
+        "started": datetime.now(UTC).isoformat(timespec="seconds"),
+        "process": os.getpid(),
+        "machine": record.provenance["machine"],
+        "versions": record.provenance["versions"],
+        "columns": describe(analysis.metrics),
+        "analysis": record.config | (record.analysis or {}),
+    }

@@ -1,0 +1,1 @@
+"""Files of the League of Robot Runners: problems and outputs."""
