@@ -1,4 +1,4 @@
-"""Print `docs/reference/metrics.md` from the columns of the metrics: `python scripts/metrics_page.py`."""
+"""Print `docs/reference/metrics/index.md` from the columns of the metrics: `python scripts/metrics_page.py`."""
 
 import importlib
 import inspect
@@ -16,7 +16,7 @@ metrics: [planning, execution, delay, {plugin: stops, least: 1 s}]
 ```
 In records and tables a column is called `<metric>.<column>`. Times are simulated seconds, never wall time. A value
 that cannot be measured is null, never zero. `Requires` names the data without which a metric, or one of its columns,
-is null: channels of the recording (see [results folder](results-folder.md)), `plan` (a plan exists), `path` (the
+is null: channels of the recording (see [results folder](../results-folder.md)), `plan` (a plan exists), `path` (the
 path that each robot was to follow is known) or `end` (how the run ended is known). Samples are
 taken at `recording.rate`, so times are exact to one sample.
 Tables, figures and replays show the columns marked *primary* unless others are asked for (`--metrics`).
