@@ -22,8 +22,6 @@ extensions = [
     "sphinx.ext.intersphinx",
     "sphinx_copybutton",
 ]
-exclude_patterns = ["README.md", "published"]
-html_extra_path = ["published"]  # releases of results: sites that `mrpbench site` wrote
 nitpicky = True
 
 myst_enable_extensions = ["deflist"]

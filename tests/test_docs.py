@@ -12,8 +12,8 @@ PAGES = sorted(
     for pattern in ("*.md", "docs/**/*.md", "plugins/**/README.md", "native/README.md")
     for file in ROOT.glob(pattern)
 )
-CURRENT = [page for page in PAGES if page.name != "CHANGELOG.md" and "results" not in page.parts]
-"""Pages that describe the tree as it is; the others name files as they were."""
+CURRENT = [page for page in PAGES if page.name != "CHANGELOG.md"]
+"""Pages that describe the tree as it is; the changelog names files as they were."""
 LINK = re.compile(r"\]\((?!https?:|mailto:)([^)#\s]*)(?:#([^)\s]+))?\)")
 HEADING = re.compile(r"^#+ (.*)$", re.MULTILINE)
 IN_TREE = re.compile(r"`((?:mrpbench_core|native|plugins|tests|docs|benchmarks|scripts|studies)/[\w./-]*[\w/])`")
@@ -46,6 +46,11 @@ def test_links_lead_to_files_and_headings(page):
 def test_paths_that_pages_name_exist(page):
     missing = [path for path in IN_TREE.findall(page.read_text()) if not list(ROOT.glob(path))]
     assert not missing
+
+
+def test_decisions_are_numbered_without_holes():
+    numbers = sorted(int(page.name[:4]) for page in (ROOT / "docs/adr").glob("0*.md"))
+    assert numbers == list(range(1, len(numbers) + 1))
 
 
 def test_the_design_page_has_the_layers_of_the_contract(project):

@@ -57,7 +57,7 @@ class DiscreteSimulator(Simulator):
     """Executes whole runs in steps, with tasks that keep coming, and with planners that plan steps.
 
     No dispatcher, navigator, controller or localizer takes part, and the planner gives no plan of the whole run
-    (decision 28).
+    (decision 21).
     """
 
     @abstractmethod

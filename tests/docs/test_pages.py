@@ -16,7 +16,7 @@ ALWAYS = {"planner", "configuration"}
 PAGES = [
     page
     for part in ("tutorial", "how-to", "reference", "explanation")
-    for page in sorted((ROOT / "docs" / part).glob("*.md"))
+    for page in sorted((ROOT / "docs" / part).rglob("*.md"))
     if "\n```" in page.read_text() and page.stem not in FOLLOWED_ELSEWHERE
 ]
 
