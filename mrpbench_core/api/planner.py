@@ -19,7 +19,7 @@ class Promise(StrEnum):
     BOUNDED = "bounded"
     """The sum of costs is at most `Planner.suboptimality` times `PlanResult.lower_bound`."""
     ROBUST = "robust"
-    """There is no conflict although each robot is up to `Planner.robustness` ticks late, and the other promises are about
+    """There is no conflict although each robot is up to `Planner.robustness` ticks late. The other promises are about
     such plans."""
     COMPLETE = "complete"
     """Finds a plan, given enough time, if one exists."""

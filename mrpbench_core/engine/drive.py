@@ -143,7 +143,7 @@ def _stand(inputs: RunInputs, instance: Instance, stream: TaskStream) -> PlanRes
 
 
 def _checked(inputs: RunInputs, problem: Problem, result: PlanResult) -> tuple[PlanResult, RunEnded | None]:
-    """A result that can be recorded, and why there is no plan to execute; a plan that is not driven, the referee judges."""
+    """A result that can be recorded, and why there is no plan to execute; what is not driven the referee judges."""
     config = inputs.config
     if fault := result_fault(result):
         return PlanResult(status=PlanStatus.GAVE_UP), RunEnded(RunStatus.PLAN_INVALID, Stage.PLANNING, fault)

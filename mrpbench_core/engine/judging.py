@@ -1,4 +1,4 @@
-"""Makes the record of a run from its verdict and the claims of its process, in a process that knows no plugin of others."""
+"""Makes the record of a run from its verdict and the claims of its process."""
 
 from collections.abc import Mapping
 from typing import Any

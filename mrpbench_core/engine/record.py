@@ -37,7 +37,7 @@ class RunRecord:
     reassigned: int = 0
     """The number of robots whose goal is not the one that the scenario gives them."""
     plan: dict[str, Any] = attrs.field(factory=dict)
-    """What the planner claims of its problem, which reports compare across runs; see `mrpbench_core.referee.plan_summary`."""
+    """Cost, bound and problem of the plan, for comparisons of runs; see `mrpbench_core.referee.plan_summary`."""
     true_poses: str | None = None
     """The localizer that `grant_truth` gave the true poses."""
     files: list[str] = attrs.field(factory=list)

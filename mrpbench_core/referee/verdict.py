@@ -120,10 +120,7 @@ def _executed(asked: Asked, run: FinishedRun, said: Ending | None) -> Ending | N
         return _ending(RunStatus.CONTRACT_BROKEN, Stage.EXECUTION, f"{what} ({asked.title('simulator')})")
     time = run.channel("time")
     gave_up = _gave_up(run)
-    if asked.tasks:
-        missed = bool(gave_up.any()) or _unserved(run)
-    else:
-        missed = bool(np.isnan(arrival_times(run)).any())
+    missed = gave_up.any() or _unserved(run) if asked.tasks else np.isnan(arrival_times(run)).any()
     if not missed:
         return None
     over = len(time) > 0 and time[-1] >= asked.limit_s - 1e-9
@@ -161,6 +158,11 @@ def _agrees(said: Ending | None, status: RunStatus) -> bool:
 
 def _ending(status: RunStatus, stage: Stage, message: str) -> Ending:
     return Ending(status=status, stage=stage, message=message)
+
+
+def _invalid(fault: str, asked: Asked) -> Verdict:
+    ending = _ending(RunStatus.PLAN_INVALID, Stage.PLANNING, f"{fault} ({asked.title('planner')})")
+    return Verdict(ending=ending)
 
 
 def _broken(message: str) -> Verdict:

@@ -14,7 +14,7 @@ from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.stages.plan import budget_of, call_planner
 from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature
-from mrpbench_core.referee.plans import Promises
+from mrpbench_core.referee.plans import Promises, judge_plan
 
 BUDGET = Budget(wall_s=1.0, memory_bytes=1 << 30)
 COLLIDING = Plan(paths=(Path(edge=[0], enter=[0], leave=[1]), Path(edge=[-1, 2], enter=[0, 2], leave=[2, 3])))
@@ -70,7 +70,7 @@ def test_planners_get_a_seed_that_only_the_runs_seed_and_repeat_decide():
 
 def judged(planner_class, problem, result):
     planner = planner_class(result=result)
-    return judge(Promises.of(planner), problem, call_planner(planner, problem, BUDGET)[0])
+    return judge_plan(Promises.of(planner), problem, call_planner(planner, problem, BUDGET)[0])
 
 
 def test_conflicts_are_counted_for_a_planner_that_promises_nothing(run_context):

@@ -10,7 +10,7 @@ from mrpbench_planners_external.presets import PRESETS
 from mrpbench_core.api import Promise
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.planning.plan import Budget, PlanStatus
-from mrpbench_core.referee.plans import Promises
+from mrpbench_core.referee.plans import Promises, judge_plan
 from mrpbench_core.testing.drawing import problem
 
 AMPLE = Budget(wall_s=30.0, memory_bytes=1 << 30, seed=7)
@@ -156,8 +156,8 @@ def test_what_is_promised_is_checked(program):
     planner = External(binary=program(PROGRAMS["lacam"]), preset="lacam")
     assert planner.promises == {Promise.CONFLICT_FREE}
     result = planner.plan(crossing, AMPLE)
-    assert "vertex" in str(judge(Promises.of(planner), crossing, result)[1])
+    assert "vertex" in str(judge_plan(Promises.of(planner), crossing, result)[1])
     lenient = attrs.evolve(planner, promised=())
-    assert judge(Promises.of(lenient), crossing, result)[1] is None
+    assert judge_plan(Promises.of(lenient), crossing, result)[1] is None
     strict = Promises.of(attrs.evolve(planner, promised=(Promise.CONFLICT_FREE, Promise.BOUNDED), w=1.5))
     assert (strict.kept, strict.factor) == ({Promise.CONFLICT_FREE, Promise.BOUNDED}, 1.5)
