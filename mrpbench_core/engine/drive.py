@@ -75,7 +75,6 @@ def drive(inputs: RunInputs, instance: Instance) -> Claims:
         _drive(inputs, instance, claims)
     except RunEnded as ended:
         claims.ending = attrs.evolve(ended.ending, message=printable(str(ended)))
-    claims.recorded = inputs.paths.recording.is_file()
     return claims
 
 
@@ -95,6 +94,7 @@ def _drive(inputs: RunInputs, instance: Instance, claims: Claims) -> None:
     context = _context(inputs, instance, result, executes=failure is None and config.executes)
     if failure is not None or not config.executes:
         RecordingWriter(inputs.paths.recording, context, inputs.instance).close()
+        claims.recorded = True
         if failure is not None:
             raise failure
         return
@@ -105,6 +105,7 @@ def _drive(inputs: RunInputs, instance: Instance, claims: Claims) -> None:
     else:
         router = instance.router(context.assigned, config.plan_filter)
         failure, claims.unexported, claims.unarrived = execute_plan(inputs, context, router, stream)
+    claims.recorded = True
     if failure is not None:
         raise failure
 

@@ -123,9 +123,10 @@ def _executed(asked: Asked, run: FinishedRun, said: Ending | None) -> Ending | N
     missed = gave_up.any() or _unserved(run) if asked.tasks else np.isnan(arrival_times(run)).any()
     if not missed:
         return None
-    over = len(time) > 0 and time[-1] >= asked.limit_s - 1e-9
-    status = RunStatus.GOALS_MISSED if over and not gave_up.any() else RunStatus.EXECUTION_ABORTED
-    if said is not None and said.stage == Stage.EXECUTION and said.status in (status, RunStatus.EXECUTION_ABORTED):
+    early = time[-1] < asked.limit_s - 1e-9
+    aborted = gave_up.any() or (early and _agrees(said, RunStatus.EXECUTION_ABORTED))
+    status = RunStatus.EXECUTION_ABORTED if aborted else RunStatus.GOALS_MISSED
+    if said is not None and _agrees(said, status):
         return said
     return _ending(status, Stage.EXECUTION, _missed(run, asked))
 

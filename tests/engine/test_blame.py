@@ -1,10 +1,12 @@
 """Failures name the plugin and the distribution that they are of."""
 
 import pytest
-from mrpbench_core.engine.origins import owner_of, title, with_origin
 
+from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.blame import broken, owner_of
 from mrpbench_core.engine.processes.worker import describe
+from mrpbench_core.plugins.provenance import title
 
 STUDY = {"world": "office", "scenario": {"plugin": "random", "robots": 2}, "planner": "example"}
 MINE = """
@@ -28,13 +30,16 @@ def config():
 
 def test_a_broken_contract_names_name_and_distribution(config):
     said = "the localizer returned NoneType instead of Estimate"
-    assert with_origin(said, config).startswith(f"{said} (localizer 'ground_truth' of mrpbench-core ")
-    assert "(planner 'example' of mrpbench-standard " in with_origin("the planner returned x", config)
+    assert broken(BrokenContractError(said, "localizer"), config).startswith(
+        f"{said} (localizer 'ground_truth' of mrpbench-core "
+    )
+    assert "(planner 'example' of mrpbench-standard " in broken(BrokenContractError("x", "planner"), config)
 
 
 def test_a_message_about_no_component_stays_as_it_is(config):
-    assert with_origin("the disk is full", config) == "the disk is full"
-    assert with_origin("the plan filter returned x", config) == "the plan filter returned x"  # there is none
+    assert broken(BrokenContractError("the disk is full"), config) == "the disk is full"
+    assert broken(BrokenContractError("a crowd returned x", "crowds"), config) == "a crowd returned x"  # there is none
+    assert broken(BrokenContractError("x", "planner"), None) == "x"
 
 
 def test_an_exception_belongs_to_the_component_whose_code_raised_it(tmp_path, monkeypatch):

@@ -32,7 +32,7 @@ def checks():
     return ContractChecks(np.array([2, 1]), facilities=["door"], beams=np.array([0, 2]))
 
 
-def test_what_keeps_the_contract_goes_through_as_a_copy():
+def test_what_keeps_the_contract_goes_through():
     checked = checks()
     assert checked.scans([SCAN], 1.0) == (SCAN,)
     for check, given in (
@@ -41,9 +41,7 @@ def test_what_keeps_the_contract_goes_through_as_a_copy():
         (checked.orders, ORDERS),
         (checked.motion, MOTION),
     ):
-        returned = check(given)
-        assert returned == given
-        assert returned is not given
+        assert check(given) is given
 
 
 @pytest.mark.parametrize(
@@ -86,20 +84,6 @@ def test_a_robot_may_move_as_far_as_it_can_in_any_direction(away):
         assert checked.state(moved, push=0.1) == moved, "a mover may have pushed it"
 
 
-def test_progress_that_has_not_changed_is_the_same_array_and_a_change_in_place_is_noticed():
-    checked, motion = checks(), attrs.evolve(MOTION, reached=[1, 1])
-    checked.orders(ORDERS)
-    first, again = checked.motion(motion), checked.motion(motion)
-    assert again.reached is first.reached
-    motion.reached.setflags(write=True)
-    motion.reached[0] = 2
-    later = checked.motion(motion)
-    assert (first.reached.tolist(), later.reached.tolist()) == ([1, 1], [2, 1])
-    motion.reached[0] = 3
-    with pytest.raises(BrokenContractError, match="for robot 0: reached what was not released"):
-        checked.motion(motion)
-
-
 @pytest.mark.parametrize(
     "changes",
     [
@@ -121,31 +105,6 @@ def test_wrong_scans_are_refused(changes):
     checked.scans((SCAN,), 1.1)
     with pytest.raises(BrokenContractError, match="the simulator returned"):
         checked.scans((attrs.evolve(SCAN, **changes),), 1.1)
-
-
-def test_scans_that_the_simulator_changes_after_they_were_checked_stay_as_they_were():
-    given = attrs.evolve(SCAN, ranges=[[1.0, 2.0]])
-    (seen,) = checks().scans((given,), 1.1)
-    given.ranges.setflags(write=True)
-    given.ranges[:] = np.nan
-    assert seen.ranges.tolist() == [[1.0, 2.0]]
-
-
-def test_what_cannot_be_copied_is_refused_by_the_name_of_its_component():
-    broken = attrs.evolve(ESTIMATE)
-    object.__setattr__(broken, "pose", np.full((2, 3), "north"))
-    with pytest.raises(BrokenContractError, match="the localizer returned what cannot be copied: ValueError"):
-        checks().estimate(broken)
-    with pytest.raises(BrokenContractError, match="the localizer returned Actor instead of Estimate"):
-        checks().estimate(Actor())
-
-
-class Actor:
-    """Says that it is an estimate, and has other poses each time."""
-
-    __class__ = property(lambda self: Estimate)
-    pose = property(lambda self: np.random.default_rng().normal(size=(2, 3)))
-    covariance = None
 
 
 @pytest.mark.parametrize("places", ["ab", (np.zeros((2, 3)), [0, 0]), (np.zeros((2, 2)), [0]), ([["x", "y"]], [0]), 5])

@@ -24,7 +24,7 @@ def log(caplog):
 
 
 def plugin(**functions):
-    found = types.SimpleNamespace()
+    found = types.ModuleType("plugin")
     for name, function in functions.items():
         setattr(found, name, hookimpl(function))
     return found
@@ -91,21 +91,6 @@ def test_the_fault_of_a_plugin_is_one_warning(log):
     ]
 
 
-def test_hooks_cannot_change_a_record():
-    def spoil(record):
-        record["metrics"]["x"] = 99
-        return {"x": 1}
-
-    seen = []
-    hooks = Hooks()
-    hooks.register(plugin(mrpbench_run_finished=spoil), "spoil")
-    hooks.register(plugin(mrpbench_run_finished=lambda record: seen.append(record["metrics"]["x"])), "second")
-    record = {"metrics": {"x": 1}}
-    assert hooks.call("mrpbench_run_finished", record=record) is None
-    assert record == {"metrics": {"x": 1}}
-    assert seen == [1]
-
-
 @pytest.mark.parametrize(
     ("functions", "what"),
     [
@@ -131,8 +116,9 @@ def test_wrappers_are_refused(log):
     def around(now):
         return (yield)
 
-    hooks = Hooks()
-    hooks.register(types.SimpleNamespace(mrpbench_stepped=around), "around")
+    hooks, wrapping = Hooks(), types.ModuleType("wrapping")
+    wrapping.mrpbench_stepped = around
+    hooks.register(wrapping, "around")
     hooks.call("mrpbench_stepped", now=0, state=None)
     assert "hooks only observe" in log.records[0].getMessage()
 

@@ -1,11 +1,8 @@
 """A value that cannot be measured is null with a reason, never 0."""
 
-from operator import attrgetter
-
 import attrs
 import numpy as np
 import pytest
-from mrpbench_metrics_standard.planning import Planning
 
 from mrpbench_core.api import Column, Metric
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
@@ -38,22 +35,6 @@ def test_values_are_named_after_metric_and_column_and_nan_is_null(run_context):
     values, reasons = measure(METRICS, run)
     assert values == {"length.length_s": 2.0, "length.odd": None, "plan.length_s": 1.0, "plan.odd": None}
     assert reasons.keys() == {"length.odd", "plan.odd"}
-
-
-def test_a_metric_of_others_cannot_change_what_those_of_this_project_call(run_context, monkeypatch):
-    @attrs.frozen(kw_only=True)
-    class Patches(NeedsPlan):
-        def measure(self, run):
-            monkeypatch.setattr(
-                Planning, "measure", lambda self, run: dict.fromkeys(map(attrgetter("name"), self.columns), 0)
-            )
-            return {"length_s": 1.0, "odd": 1.0}
-
-    run = FinishedRun(context=run_context, executed=False)
-    honest, _ = measure({"planning": Planning()}, run)
-    values, _ = measure({"patches": Patches(), "planning": Planning()}, run)
-    assert values == honest | {"patches.length_s": 1.0, "patches.odd": 1.0}
-    assert Planning().measure(run)["solved"] == 0
 
 
 def test_a_metric_without_its_channel_gives_null_and_the_reason(run_context):
@@ -114,7 +95,7 @@ def test_a_metric_that_raises_costs_neither_the_run_nor_the_others(run_context):
     values, reasons = measure({"broken": Broken(), **METRICS}, run)
     assert values["broken.length_s"] is None
     assert values["length.length_s"] == 2.0
-    assert reasons["broken"].startswith("the metric raised ValueError: no idea (metric ")
+    assert reasons["broken"] == "the metric raised ValueError: no idea"
 
 
 def test_values_that_are_not_numbers_are_null_with_the_reason(run_context):
@@ -122,7 +103,7 @@ def test_values_that_are_not_numbers_are_null_with_the_reason(run_context):
     text = {"broken": Broken(returns={"length_s": "long", "odd": 1})}
     values, reasons = measure(text, run)
     assert values == {"broken.length_s": None, "broken.odd": 1}
-    assert reasons["broken.length_s"].startswith("the metric returned str instead of a number (metric ")
+    assert reasons["broken.length_s"] == "the metric returned str instead of a number"
 
 
 @pytest.mark.parametrize(
@@ -137,7 +118,7 @@ def test_a_column_that_is_left_out_or_not_finite_is_null_and_the_metric_is_named
     values, reasons = measure({"broken": Broken(returns=returns)}, FinishedRun(context=run_context, executed=True))
     assert values == {"broken.length_s": None, "broken.odd": 1}
     assert list(reasons) == ["broken.length_s"]
-    assert f"the metric {reason} (metric '" in reasons["broken.length_s"]
+    assert reasons["broken.length_s"] == f"the metric {reason}"
 
 
 def test_an_integer_that_records_do_not_hold_is_null(run_context):
@@ -149,9 +130,9 @@ def test_an_integer_that_records_do_not_hold_is_null(run_context):
     run = FinishedRun(context=run_context, executed=True, channels={"time": lambda: np.arange(3.0)})
     values, reasons = measure({"vast": Vast()}, run)
     assert values == {"vast.length_s": None, "vast.odd": -(2**63)}
-    assert reasons["vast.length_s"].startswith("the metric returned an integer of more than 64 bits (metric ")
+    assert reasons["vast.length_s"] == "the metric returned an integer of more than 64 bits"
     _, reasons = measure({"broken": Broken(returns=[1])}, run)
-    assert reasons["broken"].startswith("the metric returned list instead of a mapping (metric ")
+    assert reasons["broken"] == "the metric returned list instead of a mapping"
 
 
 @attrs.frozen(kw_only=True)

@@ -155,7 +155,11 @@ def _measure(job: Job, channel: Channel, state: State) -> Answer:
     finally:
         recording.close()
     (metric,) = metrics.values()
-    return {"measured": [jsonable(values), {name: f"{reason} ({title(metric)})" for name, reason in reasons.items()}]}
+    named = {
+        name: f"{reason} ({title(metric)})" if reason.startswith("the metric ") else reason
+        for name, reason in reasons.items()
+    }
+    return {"measured": [jsonable(values), named]}
 
 
 STEPS: dict[str, Callable[[Job, Channel, State], Answer]] = {

@@ -18,7 +18,7 @@ from mrpbench_core.model.runs.run import FinishedRun, RunContext
 
 REST = np.array([0.05, 0.2])
 """m/s and rad/s below which a robot is at rest."""
-OWN = frozenset({"truth", "truth_twist", "level", "mode"})
+OWN = frozenset({"truth", "level", "mode"})
 """Channels that every execution of mrpbench records. Of other fleets, only the completed path is known."""
 
 
@@ -30,7 +30,8 @@ def arrival_times(run: FinishedRun) -> Float:
         return arrival
     context, truth = run.first_context(), run.channel("truth")
     there = is_at_goal(context, truth[-1, :, :2], run.channel("level")[-1])
-    there &= (np.abs(run.channel("truth_twist")[-1]) < REST).all(axis=1)
+    if run.has("command"):  # without physics robots stop at once
+        there &= (np.abs(run.channel("truth_twist")[-1]) < REST).all(axis=1)
     there &= has_passed_goals(context, truth[..., :2], run.channel("level"))
     return np.where(there, arrival, np.nan)
 

@@ -7,13 +7,8 @@ from mrpbench_core.engine.stages.fleet import build_fleet
 from mrpbench_core.files.errors import InputError
 
 
-class Config:
-    def __init__(self, *entries):
-        self.fleet = entries
-
-
 def names(*entries, size):
-    return [robot.name for robot in build_fleet(Config(*entries), size).robots]
+    return [robot.name for robot in build_fleet(entries, size).robots]
 
 
 BURGER, WAFFLE = "turtlebot3_burger", "turtlebot3_waffle"
@@ -31,16 +26,16 @@ def test_entries_without_a_count_share_the_remaining_robots():
 @pytest.mark.parametrize("size", [1, 4])
 def test_counts_that_do_not_add_up_are_refused(size):
     with pytest.raises(InputError, match=f"the counts add up to 3, the scenario has {size} robots"):
-        build_fleet(Config(FleetEntry(robot=BURGER, count=3)), size)
+        build_fleet([FleetEntry(robot=BURGER, count=3)], size)
 
 
 def test_the_lidar_can_be_changed_or_taken_off():
     changed = FleetEntry(robot=BURGER, lidar=LidarOptions(beams=90))
-    first, second = build_fleet(Config(changed, FleetEntry(robot=BURGER, lidar="none")), 2).robots
+    first, second = build_fleet([changed, FleetEntry(robot=BURGER, lidar="none")], 2).robots
     assert (first.lidar.beams, first.lidar.range) == (90, 3.5)
     assert second.lidar is None
 
 
 def test_a_lidar_that_sees_nothing_is_refused():
     with pytest.raises(InputError, match="is not below"):
-        build_fleet(Config(FleetEntry(robot=BURGER, lidar=LidarOptions(range=0.1))), 1)
+        build_fleet([FleetEntry(robot=BURGER, lidar=LidarOptions(range=0.1))], 1)

@@ -9,7 +9,6 @@ import attrs
 import pytest
 
 from mrpbench_core.api import Planner, Promise
-from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.stages.plan import budget_of, call_planner
 from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
@@ -41,12 +40,12 @@ class Optimal(Fixed):
 
 class Bounded(Fixed):
     promises = frozenset({Promise.CONFLICT_FREE, Promise.BOUNDED})
-    w = 1.5
+    suboptimality = 1.5
 
 
 class Robust(Careful):
     promises = frozenset({Promise.CONFLICT_FREE, Promise.ROBUST})
-    k = 3
+    robustness = 3
 
 
 class Assigning(Fixed):
@@ -157,18 +156,6 @@ def test_time_that_a_planner_spends_before_it_plans_counts(run_context):
     result, timing = call_planner(Early(result=run_context.result), run_context.problem, BUDGET)
     assert timing["planning_s"] > BUDGET.wall_s
     assert (result.status, result.plan) == (PlanStatus.TIMEOUT, None)
-
-
-@pytest.mark.parametrize("answer", [None, "does not like it"])
-def test_a_planner_that_changes_the_problem_before_it_plans_breaks_its_contract(run_context, answer):
-    @attrs.frozen(kw_only=True)
-    class Early(Fixed):
-        def skip(self, problem):
-            object.__setattr__(problem, "goals", ())
-            return answer
-
-    with pytest.raises(BrokenContractError, match=r"changed the problem\.goals"):
-        call_planner(Early(result=run_context.result), run_context.problem, BUDGET)
 
 
 def test_cpu_time_counts_the_programs_that_a_planner_runs(run_context):

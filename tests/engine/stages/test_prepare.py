@@ -6,7 +6,9 @@ import pytest
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.builtin.worlds.shipped import Office
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.stages.prepare import build_run_instance, prepare
+from mrpbench_core.engine.stage import ignore
+from mrpbench_core.engine.stages.prepare import build_run_instance
+from mrpbench_core.engine.stages.question import Question
 
 STUDY = {"world": "office", "scenario": {"plugin": "random", "robots": 2}, "planner": "example", "simulator": "none"}
 STUDY |= {"roadmap": {"plugin": "grid", "cell_size": 1.0}}
@@ -15,7 +17,7 @@ STUDY |= {"roadmap": {"plugin": "grid", "cell_size": 1.0}}
 def roadmaps(name, values):
     """The roadmaps of two runs that differ in one setting."""
     one, other = load_study(STUDY | {"matrix": {name: values}}).runs
-    return [build_run_instance(point.config, lambda stage, facts: None).roadmap for point in (one, other)]
+    return [build_run_instance(Question.of(point.config), ignore).roadmap for point in (one, other)]
 
 
 def test_runs_in_the_same_world_with_the_same_robots_share_a_roadmap():
@@ -41,38 +43,22 @@ def test_a_roadmap_follows_its_options_the_robots_and_the_world(name, values):
 
 
 def instance(config):
-    return build_run_instance(config, lambda stage, facts: None)
+    return build_run_instance(Question.of(config), ignore)
 
 
-def test_runs_that_are_prepared_have_the_instances_of_others(monkeypatch):
-    config, other = (load_study(STUDY).runs[0].config for _ in range(2))
+def test_the_world_is_loaded_once_for_runs_that_agree(monkeypatch):
+    config = load_study(STUDY | {"roadmap": {"plugin": "grid", "cell_size": 0.9}}).runs[0].config
     loads = []
     monkeypatch.setattr(Office, "load", lambda world, load=Office.load: loads.append(world) or load(world))
-    prepare(config)
-    for seed in (0, 1):
-        prepared = instance(attrs.evolve(config, seed=seed))
-        assert loads == [config.world]
-        assert instance(attrs.evolve(other, seed=seed)).scenario.id == prepared.scenario.id
-        loads.pop()
+    drawn = {instance(attrs.evolve(config, seed=seed)).scenario.id for seed in (0, 1, 0)}
+    assert len(loads) == 1
+    assert len(drawn) == 2
 
 
 def test_a_world_that_reads_files_of_which_the_configuration_knows_nothing_is_read_for_each_run(monkeypatch, tmp_path):
-    (point,) = load_study(STUDY).runs
     monkeypatch.setattr(Office, "reads", lambda _: (tmp_path / "walls.pgm",))
-    prepare(point.config)
+    (point,) = load_study(STUDY | {"roadmap": {"plugin": "grid", "cell_size": 1.1}}).runs
     assert instance(point.config).world is not instance(point.config).world
-
-
-@pytest.mark.parametrize("kind", ["World", "Roadmap", "Scenario"])
-def test_nothing_is_prepared_by_components_of_others(tmp_path, monkeypatch, kind):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "bad.py").write_text(MAKERS)
-    how = {"World": "walls", "Roadmap": "edges", "Scenario": "size"}[kind]
-    robots = {"robots": 2} if kind == "Scenario" else {}
-    (point,) = load_study(STUDY | {kind.lower(): {"plugin": f"./bad.py:Bad{kind}", "how": how, **robots}}).runs
-    prepare(point.config)  # whatever they make is refused
-    with pytest.raises(BrokenContractError):
-        instance(point.config)
 
 
 MAKERS = """
@@ -156,4 +142,4 @@ def test_what_cannot_be_is_refused_where_it_is_made(tmp_path, monkeypatch, kind,
     robots = {"robots": 2} if kind == "Scenario" else {}
     (point,) = load_study(STUDY | {kind.lower(): {"plugin": f"./bad.py:Bad{kind}", "how": how, **robots}}).runs
     with pytest.raises(BrokenContractError, match=fault):
-        build_run_instance(point.config, lambda stage, facts: None)
+        build_run_instance(Question.of(point.config), ignore)
