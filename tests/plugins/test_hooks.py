@@ -57,7 +57,7 @@ def test_one_that_raises_is_logged_once_and_disabled_until_the_next_run(log):
     hooks.register(plugin(mrpbench_stepped=fatal), "fatal")
     hooks.register(plugin(mrpbench_stepped=lambda now, state: seen.append((now, state))), "good")
     for now in range(3):
-        hooks.call("mrpbench_stepped", now=now, state="s")
+        hooks.call("mrpbench_stepped", now=now, state="s", observation=None, routes=())
     assert calls == [0]
     assert seen == [(0, "s"), (1, "s"), (2, "s")]
     assert hooks.disabled == ("bad", "fatal")
@@ -66,7 +66,7 @@ def test_one_that_raises_is_logged_once_and_disabled_until_the_next_run(log):
         "hook plugin 'fatal' is disabled for this run: mrpbench_stepped: BaseExceptionGroup: fatal (2 sub-exceptions)",
     ]
     hooks.enable()
-    hooks.call("mrpbench_stepped", now=9, state="s")
+    hooks.call("mrpbench_stepped", now=9, state="s", observation=None, routes=())
     assert calls == [0, 9]
 
 
@@ -119,7 +119,7 @@ def test_wrappers_are_refused(log):
     hooks, wrapping = Hooks(), types.ModuleType("wrapping")
     wrapping.mrpbench_stepped = around
     hooks.register(wrapping, "around")
-    hooks.call("mrpbench_stepped", now=0, state=None)
+    hooks.call("mrpbench_stepped", now=0, state=None, observation=None, routes=())
     assert "hooks only observe" in log.records[0].getMessage()
 
 
