@@ -1,6 +1,9 @@
-"""Contract of the kind *importer* (provisional): it reads recordings of real fleets and of other simulators."""
+"""Contract of the kind *format* (provisional): what other programs write and read, such as the bags of ROS 2.
 
-from abc import abstractmethod
+A format is a `WritableFormat`, a `ReadableFormat`, or both.
+"""
+
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar
@@ -10,6 +13,7 @@ from numpy.typing import NDArray
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.model.common.arrays import Float, array
+from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.run import RunContext
 
 SOURCES = ("ground_truth", "tf", "amcl_pose", "odometry", "fleet_states")
@@ -70,10 +74,46 @@ class Observed:
     """Data that could not be used, and what was used instead; one sentence each."""
 
 
-class Importer(Component):
-    """Reads recordings that another program or an exporter wrote."""
+class FormatWriter(ABC):
+    """Writes one run."""
 
-    group: ClassVar[str] = "mrpbench.importers"
+    @abstractmethod
+    def write(self, chunk: Chunk) -> None:
+        """Append the samples since the last chunk."""
+
+    @abstractmethod
+    def close(self) -> None:
+        """Finish the file; until then it has a temporary name or is readable at any time."""
+
+    def abandon(self) -> None:  # noqa: B027 - optional: there may be nothing to remove
+        """Remove the unfinished file, because the run failed."""
+
+
+class Format(Component):
+    """A format of recordings, of another program."""
+
+    group: ClassVar[str] = "mrpbench.formats"
+    old_groups: ClassVar[tuple[str, ...]] = ("mrpbench.exporters", "mrpbench.importers")
+    """Groups of earlier releases, whose components are read until the next one."""
+
+
+class WritableFormat(Format):
+    """Writes runs, during the run or from a stored recording."""
+
+    old_groups: ClassVar[tuple[str, ...]] = ("mrpbench.exporters",)
+    lacking: ClassVar[str] = "cannot be written, only read"
+    """The fault of other formats, where this one is asked for."""
+
+    @abstractmethod
+    def open(self, context: RunContext, destination: Path) -> FormatWriter:
+        """Begin to write to `destination`, a path without suffix in an existing folder; replace an existing file."""
+
+
+class ReadableFormat(Format):
+    """Reads recordings of real fleets and of other simulators."""
+
+    old_groups: ClassVar[tuple[str, ...]] = ("mrpbench.importers",)
+    lacking: ClassVar[str] = "cannot be read, only written"
 
     @abstractmethod
     def read(self, path: Path, robots: tuple[str, ...] = ()) -> Observed:

@@ -19,7 +19,7 @@ import numpy as np
 
 from mrpbench_core.api import Controller, ControllerSession
 from mrpbench_core.api import Assigner, Dispatcher, Localizer, LocalizerSession, Metric, Column, Planner, option
-from mrpbench_core.api.exporter import Exporter, ExporterSession
+from mrpbench_core.api.format import FormatWriter, WritableFormat
 from mrpbench_core.api.navigator import Navigator, NavigatorSession
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.builtin.dispatchers.all_at_once import AllAtOnce
@@ -187,7 +187,7 @@ class LyingScenario(Random):
         return scenario
 
 
-class _Junk(ExporterSession):
+class _Junk(FormatWriter):
     def __init__(self, folder):
         self.folder = folder
 
@@ -200,7 +200,7 @@ class _Junk(ExporterSession):
 
 
 @attrs.frozen(kw_only=True)
-class LyingExporter(Exporter):
+class LyingFormat(WritableFormat):
     writes: bool = option(True, help="into the recording")
 
     def open(self, context, destination):
@@ -338,7 +338,7 @@ def test_hooks_and_exporters_change_nothing_of_what_components_are_given(record)
     honest = record(limits=SHORT)
     for watched in (
         record(limits=SHORT, observers=Observers(planned=spoil, executing=spoil, stepped=spoil)),
-        record(limits=SHORT, export=[liar("Exporter", writes=False)]),
+        record(limits=SHORT, export=[liar("Format", writes=False)]),
     ):
         assert watched["metrics"]["execution.distance_m"] == honest["metrics"]["execution.distance_m"] > 0
         assert watched["unexported"] == {}
@@ -346,7 +346,7 @@ def test_hooks_and_exporters_change_nothing_of_what_components_are_given(record)
 
 def test_a_recording_that_a_component_changed_is_a_crash_of_the_run_and_no_mistake_of_the_user(record):
     with pytest.raises(RuntimeError, match="the recording was changed after it was written: is not a recording"):
-        record(export=[liar("Exporter")], limits={"planning": 5.0, "execution": 3.0})
+        record(export=[liar("Format")], limits={"planning": 5.0, "execution": 3.0})
 
 
 def test_true_poses_are_given_only_where_the_configuration_grants_them(record):
