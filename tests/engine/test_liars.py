@@ -327,7 +327,7 @@ def test_inputs_that_a_component_changes_in_every_period_change_nothing_that_is_
         assert np.array_equal(one, other)
 
 
-def test_hooks_and_exporters_change_nothing_of_what_components_are_given(record):
+def test_hooks_and_formats_change_nothing_of_what_components_are_given(record):
     def spoil(context=None, routes=(), **_):
         for route in context.routes if context else routes:
             route.waypoint.setflags(write=True)

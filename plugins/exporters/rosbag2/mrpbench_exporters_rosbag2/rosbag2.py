@@ -25,8 +25,8 @@ READING = (
 
 @attrs.frozen(kw_only=True)
 class Rosbag2(WritableFormat, ReadableFormat):
-    """A rosbag2 (mcap or sqlite3). Runs are written with the topics and frames that RViz, Foxglove and Nav2 expect; bags
-    of any ROS 2 distribution are read, with the message definitions that they hold.
+    """A rosbag2 (mcap or sqlite3). Runs are written with the topics and frames that RViz, Foxglove and Nav2 expect.
+    Bags of any ROS 2 distribution are read, with the message definitions that they hold.
 
     The options from `ground_truth` on are for reading. In patterns, `{robot}` stands for a robot's name; where no topic
     fits, a lone robot is looked for in `/odom` and so on. Poses of topics are read from Odometry, PoseStamped and
