@@ -34,7 +34,13 @@ TURN = 50_000
 """Inputs of a process with Atheris."""
 LARGEST = 2**20
 """Bytes of an input that Atheris makes."""
-INSTRUMENTED = ("mrpbench_core", "mrpbench_exporters_rosbag2", "mrpbench_controllers_dwb", "mrpbench_localizers_amcl")
+INSTRUMENTED = (
+    "mrpbench_core",
+    "mrpbench_league",
+    "mrpbench_exporters_rosbag2",
+    "mrpbench_controllers_dwb",
+    "mrpbench_localizers_amcl",
+)
 
 
 class Run:

@@ -16,11 +16,11 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.cli.command import Command
+from mrpbench_core.cli.command import find
 from mrpbench_core.cli.main import COMMANDS
 from mrpbench_core.cli.output.plugin import facts_of
 from mrpbench_core.config.settings import FleetEntry, RunConfig
-from mrpbench_core.plugins.installed import installed, load, providers
+from mrpbench_core.plugins.installed import installed, providers
 from mrpbench_core.plugins.kinds import COMMANDS as GROUP
 
 OURS = "mrpbench-"
@@ -121,10 +121,13 @@ class CommandLine(Written):
 
     def lines(self) -> Iterator[str]:
         """A section for each command."""
-        core = {name: Command(said, f"mrpbench_core.cli.{name.replace('-', '_')}") for name, said in COMMANDS.items()}
-        added = {it.name: load(it) for it in providers(GROUP) if it.distribution.startswith(OURS)}
-        for command, (summary, place) in (core | added).items():
-            module = importlib.import_module(place)
+        added = [it.name for it in providers(GROUP) if it.distribution.startswith(OURS)]
+        for command in (*COMMANDS, *added):
+            if command in added:
+                summary, module = find(command, COMMANDS)
+            else:
+                summary = COMMANDS[command]
+                module = importlib.import_module(f"mrpbench_core.cli.{command.replace('-', '_')}")
             parser = argparse.ArgumentParser(prog=f"mrpbench {command}")
             module.configure(parser)
             usage = " ".join(parser.format_usage().removeprefix("usage: ").split())

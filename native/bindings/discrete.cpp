@@ -118,6 +118,12 @@ Output<std::int32_t> tasks(const League& self) {
   return own(std::move(found), {count, 4});
 }
 
+Output<std::int32_t> unexecuted(const League& self) {
+  std::vector<std::int32_t> found;
+  for (const auto& it : self.unexecuted()) found.insert(found.end(), it.begin(), it.end());
+  return own(std::move(found), {self.unexecuted().size(), 3});
+}
+
 Output<std::int32_t> delays(const League& self) {
   std::vector<std::int32_t> found;
   if (const auto* const ticks = dynamic_cast<const Ticks*>(&self)) {
@@ -156,6 +162,7 @@ NB_MODULE(discrete, module) {
             return own(std::vector<std::uint8_t>(self.letters()), {self.letters().size() / robots, robots});
           },
           nb::rv_policy::automatic)
+      .def_prop_ro("unexecuted", &unexecuted, nb::rv_policy::automatic)
       .def_prop_ro("events", &events, nb::rv_policy::automatic)
       .def_prop_ro("tasks", &tasks, nb::rv_policy::automatic)
       .def_prop_ro("delays", &delays, nb::rv_policy::automatic)

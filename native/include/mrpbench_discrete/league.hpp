@@ -56,6 +56,8 @@ class League {
   const std::vector<Pose>& pose() const { return pose_; }
   /// Letters, one row of all robots per step or tick.
   const std::vector<std::uint8_t>& letters() const { return letters_; }
+  /// Row of `letters`, robot and letter of each action that was asked for and did not happen.
+  const std::vector<std::array<std::int32_t, 3>>& unexecuted() const { return unexecuted_; }
   const std::vector<ActionError>& errors() const { return errors_; }
   /// Seconds of each call of scheduler and planner.
   const std::vector<double>& call_seconds() const { return call_seconds_; }
@@ -64,6 +66,8 @@ class League {
  protected:
   /// How many robots may get tasks, if `holding` others have some.
   std::size_t may_get(std::size_t holding) const { return std::max(active_, holding) - holding; }
+  /// Write down what a robot does; the robots come in order.
+  void record(Action asked, Action done);
 
   Problem problem_;
   LeagueOptions options_;
@@ -75,6 +79,7 @@ class League {
   std::unique_ptr<Planner> planner_;
   std::vector<Pose> pose_;
   std::vector<std::uint8_t> letters_;
+  std::vector<std::array<std::int32_t, 3>> unexecuted_;
   std::vector<ActionError> errors_;
   std::vector<double> call_seconds_;
   int time_ = 0, late_calls_ = 0;

@@ -29,6 +29,11 @@ class Execution:
     def letters(self) -> NDArray[np.uint8]:
         """u1[T,n]: ASCII letters of actions, see `mrpbench_league.files.motion`."""
     @property
+    def unexecuted(self) -> NDArray[np.int32]:
+        """i4[k,3]: row of `letters`, robot, and letter of each action that was asked for and did not happen, because of
+        a delay, a fault or another robot; `T`: no answer came in time.
+        """
+    @property
     def events(self) -> NDArray[np.int32]:
         """i4[k,4]: time, robot, task, errands done; 0 errands: given to the robot (2023)."""
     @property

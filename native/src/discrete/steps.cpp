@@ -43,7 +43,7 @@ class Steps final : public League {
         ++late_calls_;
         const int late = static_cast<int>(std::min(std::ceil(seconds / options_.limit_s) - 1, 1e6));
         for (int i = 0; i < late && time_ < time; ++i) {
-          advance(std::vector<Action>(pose_.size(), problem_.season == 2024 ? Action::late : Action::wait));
+          advance(std::vector<Action>(pose_.size(), Action::late));
         }
         if (time_ == time) return;
       }
@@ -131,7 +131,8 @@ class Steps final : public League {
     if (guidance_ && moves) guidance_->observe(pose_, action);
     errors_.insert(errors_.end(), std::make_move_iterator(faults.begin()), std::make_move_iterator(faults.end()));
     for (std::size_t i = 0; i < pose_.size(); ++i) {
-      letters_.push_back(static_cast<std::uint8_t>(moves ? action[i] : Action::wait));
+      const bool named = moves && (problem_.season == 2024 || action[i] != Action::late);
+      record(action[i], named ? action[i] : Action::wait);
       if (moves) pose_[i] = problem_.grid.after(pose_[i], action[i]);
     }
     if (!proposal.empty()) tasks_.assign(time_, proposal);
@@ -188,6 +189,15 @@ League::League(Problem problem, LeagueOptions options)
 }
 
 League::~League() = default;
+
+void League::record(Action asked, Action done) {
+  if (asked != done) {
+    const auto row = static_cast<std::int32_t>(letters_.size() / pose_.size());
+    const auto robot = static_cast<std::int32_t>(letters_.size() % pose_.size());
+    unexecuted_.push_back({row, robot, static_cast<std::int32_t>(asked)});
+  }
+  letters_.push_back(static_cast<std::uint8_t>(done));
+}
 
 std::unique_ptr<League> make_steps(Problem problem, LeagueOptions options) {
   return std::make_unique<Steps>(std::move(problem), std::move(options));

@@ -40,13 +40,16 @@ class TickLeague final : public Ticks {
     view_.rest.assign(robots, 0);
     const auto tick = static_cast<int>(options_.period);
     call(0);
-    ready_at_ = std::max(ready_at_, tick);
-    time_ = ready_at_;  // nothing moves, nor is it recorded, before there is a plan
-    first_ = time_;
+    first_ = ready_at_ = std::max(ready_at_, tick);
   }
 
   void run_until(int time) override {
     for (; time_ < time; ++time_) {
+      if (time_ % kSegment == 0) note_states();
+      if (time_ < first_) {  // nothing moves before there is a plan
+        for (std::size_t i = 0; i < pose_.size(); ++i) record(Action::late, Action::wait);
+        continue;
+      }
       if ((time_ - first_) % options_.period == 0 && time_ >= ready_at_) {
         take();
         call(time_);
@@ -66,15 +69,17 @@ class TickLeague final : public Ticks {
     bool opened = false;
   };
 
+  void note_states() {
+    for (std::size_t i = 0; i < pose_.size(); ++i) {
+      const int place = problem_.grid.place(pose_[i].cell), width = problem_.grid.width();
+      segments_.insert(segments_.end(), {place / width, place % width, pose_[i].heading, bodies_.progress[i]});
+    }
+  }
+
   void tick() {
     const std::size_t robots = pose_.size();
-    if ((time_ - first_) % kSegment == 0) {
-      for (std::size_t i = 0; i < robots; ++i) {
-        const int place = problem_.grid.place(pose_[i].cell), width = problem_.grid.width();
-        segments_.insert(segments_.end(), {place / width, place % width, pose_[i].heading, bodies_.progress[i]});
-      }
-    }
-    auto acts = executor_.go(bodies_, delayed_);
+    const auto go = executor_.go(bodies_, delayed_);
+    auto acts = go;
     delayed_ = delays_.tick(time_);
     for (std::size_t i = 0; i < robots; ++i) {
       const auto& staged = executor_.staged(static_cast<int>(i));
@@ -84,7 +89,7 @@ class TickLeague final : public Ticks {
     const auto before = bodies_.begun;
     const auto& moved = squares_.advance(bodies_, acts);
     for (std::size_t i = 0; i < robots; ++i) {
-      letters_.push_back(static_cast<std::uint8_t>(moved[i] ? before[i] : Action::wait));
+      record(go[i] ? before[i] : Action::wait, moved[i] ? before[i] : Action::wait);
       refused_ += acts[i] && !moved[i];
       if (moved[i] && bodies_.progress[i] == 0) executor_.finish(static_cast<int>(i), pose_[i]);
     }

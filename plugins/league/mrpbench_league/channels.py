@@ -32,11 +32,10 @@ def channels_of(output: LorrOutput, tasks: Sequence[Task], raster: Occupancy, se
 
 
 def _motion(output: LorrOutput, raster: Occupancy, seconds: float, rate: float) -> Chunk:
-    """Poses at the sampled ends of steps. Ticks without motion (2026) come before the first answer of the planner."""
+    """Poses at the start and at the sampled ends of steps."""
     counter = output.counter if output.season == 2026 else 1
     letters = np.stack([motion.letters for motion in output.motion], axis=1)
-    still = np.full((1 + output.makespan - len(letters), letters.shape[1]), ord("W"), np.uint8)
-    letters = np.concatenate([still, letters])
+    letters = np.concatenate([np.full((1, letters.shape[1]), ord("W"), np.uint8), letters])
     turned = np.cumsum((letters == CLOCKWISE).astype(np.int64) - (letters == COUNTER_CLOCKWISE), axis=0)
     heading = (output.start[:, 2] + turned // counter) % 4
     ahead = (letters == FORWARD).astype(np.int64)

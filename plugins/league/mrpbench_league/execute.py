@@ -7,6 +7,7 @@ import attrs
 import numpy as np
 from mrpbench_native import discrete
 
+from mrpbench_core.model.common.arrays import Byte, Int32
 from mrpbench_league.files.motion import Motion, write_segments, write_steps
 from mrpbench_league.files.output import LorrOutput, write_output
 from mrpbench_league.files.problem import LorrProblem
@@ -76,13 +77,16 @@ def execute(problem: LorrProblem, duration: int, options: Options | None = None)
     letters = running.letters
     robots, width = len(problem.start), problem.blocked.shape[1]
     ticked = problem.season == 2026
-    silent = duration - len(letters)
     segments = running.segments
-    paths, motion = [], []
-    for robot in range(robots):
+    unexecuted = running.unexecuted[np.argsort(running.unexecuted[:, 1], kind="stable")]
+    paths, asked, motion = [], [], []
+    for robot, rows in enumerate(np.split(unexecuted, np.searchsorted(unexecuted[:, 1], np.arange(1, robots)))):
         own = np.ascontiguousarray(letters[:, robot])
-        paths.append(write_segments(own, segments[:, robot], SEGMENT, silent) if ticked else write_steps(own))
-        motion.append(Motion(own, ((silent, len(own)),) if ticked else ()))
+        planned = own.copy()
+        planned[rows[:, 0]] = rows[:, 2]
+        paths.append(_text(own, segments[:, robot], ticked))
+        asked.append(_text(planned, segments[:, robot], ticked))
+        motion.append(Motion(own, ((0, len(own)),) if ticked else ()))
     delays: list[list[tuple[int, int]]] = [[] for _ in range(robots)]
     for robot, start, end in running.delays.tolist():
         delays[robot].append((start, end))
@@ -106,8 +110,12 @@ def execute(problem: LorrProblem, duration: int, options: Options | None = None)
         call_seconds=running.call_seconds,
         late_calls=running.late_calls,
         refused=running.refused,
-        others=_others(problem, running, duration),
+        others={"plannerPaths": asked} | _others(problem, running, duration),
     )
+
+
+def _text(letters: Byte, states: Int32, ticked: bool) -> str:
+    return write_segments(letters, states, SEGMENT) if ticked else write_steps(letters)
 
 
 def _task(problem: LorrProblem, task: int, line: int, time: int) -> tuple[int, int, tuple[int, ...]]:

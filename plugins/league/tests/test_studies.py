@@ -146,6 +146,6 @@ def test_a_planner_of_whole_runs_is_skipped(tmp_path):
 
 def test_problems_of_2023_are_refused(tmp_path):
     (tmp_path / "single.tasks").write_text("2\n3\n5\n")
-    problem(tmp_path, "2023 LoRR", taskFile="single.tasks")
+    problem(tmp_path, "2023 LoRR", taskFile="single.tasks", numTasksReveal=1)
     with pytest.raises(InputError, match=r"problem.json: is of 2023"):
         run(tmp_path)

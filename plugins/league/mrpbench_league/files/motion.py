@@ -70,14 +70,13 @@ def write_steps(letters: Byte) -> str:
     return ",".join(letters.tobytes().decode("ascii"))
 
 
-def write_segments(letters: Byte, states: Int32, length: int, first_tick: int = 0) -> str:
-    """Return letters u1[T] in segments of `length` ticks.
+def write_segments(letters: Byte, states: Int32, length: int) -> str:
+    """Return letters u1[T] in segments of `length` ticks, the first from tick 0, as PlanViz needs them.
 
     Args:
         letters: u1[T].
         states: i4[ceil(T / length),4]: row, column, heading and counter at the beginning of each segment.
         length: ticks of a segment.
-        first_tick: the tick of the first letter.
     """
     parts = []
     for index, begin in enumerate(range(0, len(letters), length)):
@@ -86,5 +85,5 @@ def write_segments(letters: Byte, states: Int32, length: int, first_tick: int = 
         changes = np.flatnonzero(np.diff(part)) + 1
         bounds = [0, *changes.tolist(), len(part)]
         runs = ",".join(f"{chr(part[a])} {b - a}" for a, b in pairwise(bounds))
-        parts.append(f"[({first_tick + begin},{row},{column},{heading},{counter}):({runs})]")
+        parts.append(f"[({begin},{row},{column},{heading},{counter}):({runs})]")
     return "".join(parts)

@@ -176,7 +176,8 @@ def write_output(file: Path, output: LorrOutput, paths: list[str], **others: Any
         data |= {"events": by_robot, "tasks": [[task, *place] for task, _, place in tasks]}
     else:
         data |= {"events": [list(one) for one in events], "tasks": [[i, at, list(place)] for i, at, place in tasks]}
-        data["actualSchedule"] = [",".join(f"{at}:{task}" for at, task in one) for one in output.schedule or ()]
+        schedule = [one or ((0, -1),) for one in output.schedule or ()]  # PlanViz reads no empty one
+        data["actualSchedule"] = [",".join(f"{at}:{task}" for at, task in one) for one in schedule]
     if season == 2026:
         data |= {
             "agentMaxCounter": output.counter,
