@@ -1,4 +1,4 @@
-"""Measure how many messages per second the exporter `rosbag2` writes on one core, by number of robots.
+"""Measure how many messages per second the format `rosbag2` writes on one core, by number of robots.
 
 Everything a run has, at 20 Hz (scans of 360 random beams at 5 Hz), from the first message to the finished bag. Fleets
 are done in turn, in rounds, and the fastest round counts. Prints messages and megabytes a second of CPU time, and how

@@ -10,7 +10,7 @@ from unittest import mock
 
 from containers import unzipped, zipped
 from maps import BUILDING
-from mrpbench_exporters_rosbag2.exporter import Rosbag2
+from mrpbench_exporters_rosbag2 import Rosbag2
 from mrpbench_exporters_rosbag2.writer import QuickWriter
 
 from mrpbench_core.config.study import load_study

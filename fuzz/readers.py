@@ -18,8 +18,7 @@ from containers import in_zip, mutate_database, mutate_mcap
 from examples import RUN, bags, example, recording, records, scenarios
 from mrpbench_analysis.observed_run import Sampling, observe, observe_own
 from mrpbench_controllers_dwb.dwb import Dwb
-from mrpbench_exporters_rosbag2.exporter import Rosbag2
-from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
+from mrpbench_exporters_rosbag2 import Rosbag2
 from mrpbench_localizers_amcl import Amcl
 from mrpbench_metrics_standard import execution, planning
 from mrpbench_planners_external.outputs import READERS as OUTPUTS
@@ -158,7 +157,7 @@ def use_recording(kept: Recording) -> None:
 
 def read_bag(file: Path) -> None:
     """Read a bag and put it on the clock of a run."""
-    observed = FromRosbag2().read(file)
+    observed = Rosbag2().read(file)
     own = observed.context
     if own is not None and "time" in observed.channels and len(observed.tracks) == len(own.fleet):
         observe_own(observed, own)

@@ -16,10 +16,12 @@ from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
 from mrpbench_core.api.component import Component
+from mrpbench_core.cli.command import find
 from mrpbench_core.cli.main import COMMANDS
 from mrpbench_core.cli.output.plugin import facts_of
 from mrpbench_core.config.settings import FleetEntry, RunConfig
-from mrpbench_core.plugins.installed import installed
+from mrpbench_core.plugins.installed import installed, providers
+from mrpbench_core.plugins.kinds import COMMANDS as GROUP
 
 OURS = "mrpbench-"
 """How the names of our distributions begin: a site lists no plugin that its builder happens to have installed."""
@@ -119,8 +121,13 @@ class CommandLine(Written):
 
     def lines(self) -> Iterator[str]:
         """A section for each command."""
-        for command, summary in COMMANDS.items():
-            module = importlib.import_module(f"mrpbench_core.cli.{command.replace('-', '_')}")
+        added = [it.name for it in providers(GROUP) if it.distribution.startswith(OURS)]
+        for command in (*COMMANDS, *added):
+            if command in added:
+                summary, module = find(command, COMMANDS)
+            else:
+                summary = COMMANDS[command]
+                module = importlib.import_module(f"mrpbench_core.cli.{command.replace('-', '_')}")
             parser = argparse.ArgumentParser(prog=f"mrpbench {command}")
             module.configure(parser)
             usage = " ".join(parser.format_usage().removeprefix("usage: ").split())
@@ -132,7 +139,7 @@ class CommandLine(Written):
                     "help": (action.help or "") % vars(action),
                 }
                 for action in parser._actions  # argparse has no public list of them
-                if action.dest != "help"
+                if action.dest != "help" and action.help != argparse.SUPPRESS
             ]
             if rows:
                 yield from table(rows, ("name", "default", "help"), "argument")

@@ -8,8 +8,9 @@ from mrpbench_core.api.discrete import DiscreteResult, DiscreteRun, DiscreteSimu
 from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSession, RepeatedSession
 from mrpbench_core.api.executor import ExecutorSource
 from mrpbench_core.api.exporter import Exporter, ExporterSession
+from mrpbench_core.api.format import Format, FormatWriter, Observed, ReadableFormat, Signal, Track, WritableFormat
 from mrpbench_core.api.hooks import hookimpl
-from mrpbench_core.api.importer import Importer, Observed, Signal, Track
+from mrpbench_core.api.importer import Importer
 from mrpbench_core.api.localizer import Localizer, LocalizerSession
 from mrpbench_core.api.metric import Column, Metric, Value
 from mrpbench_core.api.navigator import Navigator, NavigatorSession
@@ -36,8 +37,7 @@ KINDS: dict[str, type[Component]] = {
     "simulator": Simulator,
     "crowd": Crowd,
     "metric": Metric,
-    "exporter": Exporter,
-    "importer": Importer,
+    "format": Format,
     "executor": ExecutorSource,
 }
 """The class of each kind, by the word for the kind; `group` of the class is its entry-point group."""
@@ -65,6 +65,8 @@ __all__ = [
     "ExporterSession",
     "FleetControllerSession",
     "FleetOfOne",
+    "Format",
+    "FormatWriter",
     "Importer",
     "Localizer",
     "LocalizerSession",
@@ -77,6 +79,7 @@ __all__ = [
     "Planner",
     "PlannerSession",
     "Promise",
+    "ReadableFormat",
     "Recovery",
     "RecoverySession",
     "RepeatedSession",
@@ -91,6 +94,7 @@ __all__ = [
     "Track",
     "Value",
     "WorldSource",
+    "WritableFormat",
     "between",
     "hookimpl",
     "option",

@@ -67,7 +67,7 @@ def _configuration() -> dict[str, Any]:
         "scenario": {"plugin": "random", "robots": 5},
         **chosen,
         "dispatcher": "adg",
-        "export": ["rosbag2"] if _works("exporter", "rosbag2") else [],
+        "export": ["rosbag2"] if _works("format", "rosbag2") else [],
         "recording": {"scans": True},
         "limits": {"planning": 20.0},
     }

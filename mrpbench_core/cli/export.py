@@ -4,7 +4,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from mrpbench_core.api.exporter import Exporter
+from mrpbench_core.api.format import WritableFormat
 from mrpbench_core.cli.input.arguments import read_options
 from mrpbench_core.cli.input.run_reference import HELP, find_run
 from mrpbench_core.config.items import Location, from_data
@@ -15,8 +15,8 @@ from mrpbench_core.engine.processes.call import in_worker
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument("run", metavar="RUN", help=HELP)
-    parser.add_argument("--to", required=True, metavar="NAME", help="exporter, e.g. rosbag2")
-    parser.add_argument("--option", action="append", default=[], metavar="K=V", help="option of the exporter")
+    parser.add_argument("--to", required=True, metavar="NAME", help="format, e.g. rosbag2")
+    parser.add_argument("--option", action="append", default=[], metavar="K=V", help="option of the format")
     parser.add_argument(
         "--out", metavar="FILE", help="destination without suffix (default: exports/ in the results folder)"
     )
@@ -33,13 +33,13 @@ def run(arguments: argparse.Namespace) -> int:
 def export(run: str, options: dict[str, Any], out: str | None) -> list[str]:
     """In a worker process: export a run; return the files and folders written."""
     results, record = find_run(run)
-    exporter = structure_component(Exporter, from_data(options, Location()), "--to", Path.cwd())  # type: ignore[type-abstract]
+    chosen = structure_component(WritableFormat, from_data(options, Location()), "--to", Path.cwd())  # type: ignore[type-abstract]
     recording = results.recording(record["run_id"])
     destination = results.paths(record["run_id"]).exports / options["plugin"] if out is None else Path(out)
     destination.parent.mkdir(parents=True, exist_ok=True)
-    session = exporter.open(recording.first_context(), destination)
+    writer = chosen.open(recording.first_context(), destination)
     for chunk in recording.chunks():
-        session.write(chunk)
-    session.close()
+        writer.write(chunk)
+    writer.close()
     recording.close()
     return [str(file) for file in sorted(destination.parent.glob(f"{destination.name}*"))]

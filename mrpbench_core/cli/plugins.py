@@ -7,7 +7,7 @@ from typing import Any
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.installed import Provider, installed, unreadable
-from mrpbench_core.plugins.kinds import singular
+from mrpbench_core.plugins.kinds import asked_kind
 
 LOG = logging.getLogger(__name__)
 
@@ -33,12 +33,15 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(f"plugins {' '.join(words)}: expected one kind, or `show NAME`")
     found = list(installed())
     if words:
-        found = [provider for provider in found if provider.kind == singular(words[0])]
+        kind = asked_kind(words[0])
+        found = [provider for provider in found if provider.kind == kind]
         if not found:
             kinds = dict.fromkeys(provider.kind for provider in installed())
             raise InputError(f"no plugin has the kind {words[0]!r}", hint="there are " + ", ".join(kinds))
     for folder, fault in unreadable().items():
         LOG.warning("%s %s", folder, fault)
+    for advice in filter(None, (provider.advice for provider in found)):
+        LOG.warning(advice)
     if arguments.json:
         print_json([_facts(provider) for provider in found])
         return 0

@@ -12,7 +12,6 @@ from mrpbench_core.api import (
     Controller,
     Crowd,
     Dispatcher,
-    Exporter,
     Localizer,
     Metric,
     Navigator,
@@ -22,6 +21,7 @@ from mrpbench_core.api import (
     Simulator,
     TaskSource,
     WorldSource,
+    WritableFormat,
     between,
     option,
 )
@@ -279,7 +279,7 @@ class RunConfig:
     delays: Delays = option(Delays(), help="stops of robots, and speeds that differ from the plan")
     faults: Faults = option(Faults(), help="what fails during execution, and what is done about it")
     metrics: Mapping[str, Metric] = block(("planning", "execution"), help="metrics to compute")
-    export: Mapping[str, Exporter] = block((), help="formats in which executions are also written")
+    export: Mapping[str, WritableFormat] = block((), help="formats in which executions are also written")
     recording: RecordingOptions = option(RecordingOptions(), help="settings of recordings")
     limits: Limits = option(Limits(), help="limits of time and memory")
     replanning: Replanning = option(Replanning(), help="calls of the planner during execution")

@@ -5,6 +5,7 @@ validators of single fields would each replace what cattrs does by default.
 """
 
 import enum
+import logging
 import typing
 from collections.abc import Mapping
 from pathlib import Path
@@ -25,8 +26,10 @@ from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order
 from mrpbench_core.files.suggestions import suggest
 from mrpbench_core.plugins.contract import is_of
 from mrpbench_core.plugins.importing import is_interrupt, told
+from mrpbench_core.plugins.provenance import advice_of
 from mrpbench_core.plugins.registry import Registry
 
+LOG = logging.getLogger(__name__)
 C = TypeVar("C", bound=Component)
 _SCALARS = (bool, int, float, str)
 
@@ -254,15 +257,18 @@ def structure(
 
 
 def structure_component(base: type[C], item: Item, key: str, folder: Path) -> C:
-    """Return one component outside a study, such as the executor.
+    """Return one component outside a study, such as the executor. Advice about its installation is logged.
 
     Raises:
         InputErrors: everything that is wrong with it.
     """
     try:
-        return Structure(folder).component(item, base, key)
+        component = Structure(folder).component(item, base, key)
     except InputErrors as several:
         raise InputErrors(*in_reading_order(several.errors)) from None
+    if advice := advice_of(type(component)):
+        LOG.warning(advice)
+    return component
 
 
 def _join(key: str, name: str) -> str:

@@ -20,7 +20,7 @@ from mrpbench_core.config.shared import Shared
 from mrpbench_core.config.structure import Structure
 from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order, read_all
 from mrpbench_core.files.yaml import load
-from mrpbench_core.plugins.provenance import components_in
+from mrpbench_core.plugins.provenance import advice_of, components_in
 
 NAMED_POINTS = 5
 """Points that an error names."""
@@ -125,8 +125,14 @@ def _study(root: Item, file: Path | None, folder: Path, overrides: Sequence[str]
         errors=tuple(errors),
         invalid=len({id(point) for _, broken in faults.values() for point in broken}),
         document=root.data,
-        notes=idle.notes(),
+        notes=(*idle.notes(), *_advice(runs.values())),
     )
+
+
+def _advice(runs: Iterable[RunPoint]) -> list[str]:
+    """Return a line for each component that is installed under a name of earlier releases."""
+    classes = dict.fromkeys(type(component) for run in runs for component in run.components)
+    return [advice for cls in classes if (advice := advice_of(cls))]
 
 
 def _structure(

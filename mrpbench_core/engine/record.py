@@ -31,7 +31,7 @@ class RunRecord:
     unmeasured: dict[str, str] = attrs.field(factory=dict)
     """The reason why a metric or `<metric>.<column>` cannot be measured, by name."""
     unexported: dict[str, str] = attrs.field(factory=dict)
-    """The reason why an export failed, by the name of the exporter."""
+    """The reason why an export failed, by the name of the format."""
     unarrived: dict[str, str] = attrs.field(factory=dict)
     """Why robots did not arrive, by their names; only in runs with faults."""
     reassigned: int = 0

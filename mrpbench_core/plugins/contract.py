@@ -8,6 +8,7 @@ from typing import Any, ClassVar
 import attrs
 
 from mrpbench_core.api.component import Component
+from mrpbench_core.api.format import Format, ReadableFormat, WritableFormat
 
 CORE = "mrpbench_core."
 
@@ -15,6 +16,8 @@ CORE = "mrpbench_core."
 def violation(cls: Any, base: type[Component]) -> str | None:
     """Return why `cls` is not a component of the kind `base`, as a predicate for its name, or None."""
     if not isinstance(cls, type) or not issubclass(cls, base):
+        if isinstance(cls, type) and issubclass(cls, Format) and issubclass(base, WritableFormat | ReadableFormat):
+            return base.lacking
         return f"is not a subclass of {base.__name__}"
     if cls.__module__.startswith(CORE) and not is_of(cls):
         return f"says that it is of the module {cls.__module__}, where it is not"

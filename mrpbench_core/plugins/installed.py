@@ -17,7 +17,7 @@ from packaging.requirements import InvalidRequirement, Requirement
 
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.plugins.importing import is_interrupt, watched
-from mrpbench_core.plugins.kinds import COMMANDS, PREFIX, kind_of
+from mrpbench_core.plugins.kinds import COMMANDS, PREFIX, RENAMED, group_of, kind_of
 
 CORE = "mrpbench-core"
 _NAMES_CORE = re.compile(r"\s*mrpbench[-_.]+core(?![\w.-]*\w)", re.IGNORECASE).match
@@ -41,6 +41,16 @@ class Provider:
     def origin(self) -> str:
         """Distribution and version, for errors."""
         return f"{self.distribution} {self.version}"
+
+    @property
+    def advice(self) -> str | None:
+        """A line about a group of earlier releases, which is read until the next one; None for other groups."""
+        if self.kind not in RENAMED.values() or self.group == group_of(self.kind):
+            return None
+        return (
+            f"{self.origin} offers {self.kind} {self.name!r} in the group {self.group}, which the next release does not"
+            f" read: it is now {group_of(self.kind)}"
+        )
 
 
 def installed() -> tuple[Provider, ...]:

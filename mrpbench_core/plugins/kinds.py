@@ -3,6 +3,10 @@
 A test compares this table with `mrpbench_core.api.KINDS`.
 """
 
+import logging
+
+LOG = logging.getLogger(__name__)
+
 GROUPS = {
     "world": "mrpbench.worlds",
     "roadmap": "mrpbench.roadmaps",
@@ -17,11 +21,13 @@ GROUPS = {
     "simulator": "mrpbench.simulators",
     "crowd": "mrpbench.crowds",
     "metric": "mrpbench.metrics",
-    "exporter": "mrpbench.exporters",
-    "importer": "mrpbench.importers",
+    "format": "mrpbench.formats",
     "executor": "mrpbench.executors",
 }
 """Entry-point group of each kind."""
+
+RENAMED = {"exporter": "format", "importer": "format"}
+"""Kinds by their names in earlier releases, which are read until the next one."""
 
 PREFIX = "mrpbench."
 HOOKS = "mrpbench.hooks"
@@ -32,7 +38,8 @@ COMMANDS = "mrpbench.commands"
 
 def kind_of(group: str) -> str:
     """Return the word for a group: `planner` for `mrpbench.planners`, `critic` for `mrpbench.critics`."""
-    return singular(group.removeprefix(PREFIX))
+    word = singular(group.removeprefix(PREFIX))
+    return RENAMED.get(word, word)
 
 
 def group_of(kind: str) -> str:
@@ -44,3 +51,11 @@ def group_of(kind: str) -> str:
 def singular(word: str) -> str:
     """Return the singular: `planner` for `planner` and `planners`, `recovery` for `recoveries`."""
     return f"{word[:-3]}y" if word.endswith("ies") else word.removesuffix("s")
+
+
+def asked_kind(word: str) -> str:
+    """Return the kind that a user names, in singular or plural; a name of earlier releases gives a line of advice."""
+    kind = singular(word)
+    if kind in RENAMED:
+        LOG.warning("the kind %r is now %r; the next release does not read the old name", kind, RENAMED[kind])
+    return RENAMED.get(kind, kind)

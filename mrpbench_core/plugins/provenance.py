@@ -73,6 +73,13 @@ def is_of_others(component: Component) -> bool:
     return provider is None or provider.distribution not in (CORE, *PUBLISHED)
 
 
+def advice_of(cls: type[Component]) -> str | None:
+    """Return a line of advice if a class is installed in a group of earlier releases."""
+    kind = kind_class(cls)
+    provider = Registry(kind).provider_of(cls) if hasattr(kind, "old_groups") else None
+    return provider.advice if provider else None
+
+
 def kind_class(cls: type[Component]) -> type[Component]:
     """Return the class that defines the group of `cls`."""
     return next(owner for owner in cls.__mro__ if "group" in vars(owner))

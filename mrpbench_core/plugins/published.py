@@ -40,7 +40,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-assigners-ortools": {"mrpbench.assigners": ("ortools_mip", "ortools_sat")},
     "mrpbench-bridges-ros2": {"mrpbench.navigators": ("ros2",), "mrpbench.hooks": ("ros2",)},
     "mrpbench-executors-dask": {"mrpbench.executors": ("dask",)},
-    "mrpbench-exporters-rosbag2": {"mrpbench.exporters": ("rosbag2",), "mrpbench.importers": ("rosbag2",)},
+    "mrpbench-exporters-rosbag2": {"mrpbench.formats": ("rosbag2",)},
     "mrpbench-league": {
         "mrpbench.commands": ("league-run", "league-score"),
         "mrpbench.planners": ("league",),

@@ -39,7 +39,11 @@ class Registry(Generic[C]):
 
     def __iter__(self) -> Iterator[Provider]:
         """Iterate over the installed components by name, without importing them."""
-        return iter(providers(self.group))
+        found = {(provider.name, provider.distribution): provider for provider in providers(self.group)}
+        for group in getattr(self.base, "old_groups", ()):
+            for provider in providers(group):
+                found.setdefault((provider.name, provider.distribution), provider)
+        return iter(found.values())
 
     def find(self, name: str) -> Provider:
         """Return the installed component called `name` (or `name@distribution`) without importing it.

@@ -258,7 +258,7 @@ class Recording:
             return read_array(self._read(name))
 
     def first_context(self) -> RunContext:
-        """The context before execution began, as exporters receive it; new plans are in the channels `route_...`."""
+        """The context before execution began, as formats receive it; new plans are in the channels `route_...`."""
         return self._first_context
 
     @cached_property

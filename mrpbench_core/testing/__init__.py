@@ -28,9 +28,8 @@ from mrpbench_core.testing.suites.crowd import CrowdConformance
 from mrpbench_core.testing.suites.discrete import DiscreteSimulatorConformance
 from mrpbench_core.testing.suites.dispatcher import DispatcherConformance
 from mrpbench_core.testing.suites.executor import ExecutorConformance
-from mrpbench_core.testing.suites.exporter import ExporterConformance
+from mrpbench_core.testing.suites.format import FormatConformance
 from mrpbench_core.testing.suites.hook import HookConformance
-from mrpbench_core.testing.suites.importer import ImporterConformance
 from mrpbench_core.testing.suites.localizer import LocalizerConformance
 from mrpbench_core.testing.suites.metric import MetricConformance
 from mrpbench_core.testing.suites.navigator import NavigatorConformance
@@ -52,10 +51,9 @@ __all__ = [
     "DiscreteSimulatorConformance",
     "DispatcherConformance",
     "ExecutorConformance",
-    "ExporterConformance",
     "Fault",
+    "FormatConformance",
     "HookConformance",
-    "ImporterConformance",
     "LocalizerConformance",
     "MetricConformance",
     "NavigatorConformance",

@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from mrpbench_core.cli import info, main
+from mrpbench_core.plugins.installed import providers
+from mrpbench_core.plugins.kinds import COMMANDS
 
 LIGHT = "import sys; from mrpbench_core.cli.main import main; main({words!r}); sys.exit('numpy' in sys.modules)"
 
@@ -22,7 +24,7 @@ def test_the_package_is_light():
     assert subprocess.run([sys.executable, "-c", code]).returncode == 0
 
 
-@pytest.mark.parametrize("command", main.COMMANDS)
+@pytest.mark.parametrize("command", [*main.COMMANDS, *(provider.name for provider in providers(COMMANDS))])
 def test_every_listed_command_has_help(mrpbench, command):
     code, output, errors = mrpbench(command, "--help")
     assert (code, errors) == (0, "")

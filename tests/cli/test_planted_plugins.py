@@ -16,7 +16,7 @@ MODULES = {
         "starts a thread",
     ),
 }
-KINDS = ("worlds", "roadmaps", "planners", "exporters", "importers", "executors", "metrics")
+KINDS = ("worlds", "roadmaps", "planners", "formats", "executors", "metrics")
 STUDY = """\
 name: tiny
 world: {plugin: movingai, file: tiny.map}
@@ -69,7 +69,7 @@ COMMANDS = {
     "scenario": "scenario study.yaml roadmap=planted --write a.yaml",
     "world": "world planted",
     "export": "export out --to planted",
-    "analyze": "analyze study.yaml --importer planted",
+    "analyze": "analyze study.yaml --format planted",
 }
 
 

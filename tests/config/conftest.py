@@ -140,7 +140,7 @@ class Execution(Metric):
 
 @fill
 @attrs.frozen(kw_only=True)
-class Rosbag(Exporter):
+class Rosbag(WritableFormat):
     storage: Literal["mcap", "sqlite3"] = option("mcap", help="format")
 """
 
@@ -157,7 +157,7 @@ NAMES = {
     "mrpbench.simulators": {"kinematic": "Kinematic"},
     "mrpbench.localizers": {"ground_truth": "Truth"},
     "mrpbench.metrics": {"planning": "Planning", "execution": "Execution"},
-    "mrpbench.exporters": {"rosbag2": "Rosbag"},
+    "mrpbench.formats": {"rosbag2": "Rosbag"},
 }
 
 

@@ -166,12 +166,35 @@ def test_the_fleet_is_a_name_an_entry_or_a_list_of_them(study, errors, tmp_path)
     assert "fleet.0.lidar.beams: 'beams' must be >= 1: 0" in errors(BASE + "fleet: [{lidar: {beams: 0}}]")[0]
 
 
-def test_metrics_and_exporters_are_kept_by_name(study, errors):
+def test_metrics_and_formats_are_kept_by_name(study, errors):
     config = study(BASE + "metrics: [planning]\nexport: rosbag2").runs[0].config
     assert list(config.metrics) == ["planning"]
     assert config.export["rosbag2"].storage == "mcap"
     assert study(BASE + "metrics: []").runs[0].config.metrics == {}
     assert "metrics.1: 'planning' is listed twice" in errors(BASE + "metrics: [planning, planning]")[0]
+
+
+OLD = """
+import attrs
+from mrpbench_core.api import Exporter, Importer
+
+@attrs.frozen(kw_only=True)
+class Out(Exporter):
+    def open(self, context, destination): ...
+
+@attrs.frozen(kw_only=True)
+class In(Importer):
+    def read(self, path, robots=()): ...
+"""
+
+
+def test_a_format_of_an_earlier_release_gives_one_note(study, errors, install):
+    groups = {"mrpbench.exporters": {"csv": "{module}:Out"}, "mrpbench.importers": {"table": "{module}:In"}}
+    install("acme-old", groups, OLD)
+    (note,) = study(BASE + "simulator: kinematic\nmatrix: {seed: 0..3}\nexport: [csv]").notes
+    assert note.startswith("acme-old 1.0 offers format 'csv' in the group mrpbench.exporters")
+    (line,) = errors(BASE + "export: [table]")
+    assert line.endswith("no format is called 'table' (`mrpbench plugins` lists what is installed: csv, rosbag2)")
 
 
 def test_files_are_relative_to_the_configuration_and_must_exist(study, errors, tmp_path, monkeypatch):

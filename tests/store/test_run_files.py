@@ -37,7 +37,7 @@ def test_a_recording_that_is_not_kept_and_a_run_without_files_have_no_sum(paths,
     assert seal(ResultsFolder(tmp_path).run("other")) == []
 
 
-def test_links_and_fifos_that_an_exporter_left_are_passed_over(paths, tmp_path):
+def test_links_and_fifos_that_a_format_left_are_passed_over(paths, tmp_path):
     (paths.exports / "link").symlink_to("/etc/passwd")
     os.mkfifo(paths.exports / "fifo")
     assert len(seal(paths)) == 2

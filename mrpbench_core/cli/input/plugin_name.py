@@ -2,15 +2,18 @@
 
 from pathlib import Path
 
-from mrpbench_core.api import KINDS
+from mrpbench_core.api import KINDS, ReadableFormat, WritableFormat
 from mrpbench_core.api.component import Component
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import did_you_mean, suggest
 from mrpbench_core.plugins.installed import Provider, installed, load, providers
-from mrpbench_core.plugins.kinds import HOOKS, kind_of, singular
+from mrpbench_core.plugins.kinds import HOOKS, RENAMED, asked_kind, kind_of, singular
 from mrpbench_core.plugins.local import is_local, load_local
 from mrpbench_core.plugins.provenance import kind_class
 from mrpbench_core.plugins.published import remedy
+
+OLD_KINDS: dict[str, type[Component]] = {"exporter": WritableFormat, "importer": ReadableFormat}
+"""What kinds of earlier releases mean, which are read until the next one."""
 
 
 def resolve(name: str) -> tuple[type[Component], str]:
@@ -21,6 +24,9 @@ def resolve(name: str) -> tuple[type[Component], str]:
     """
     kind, _, rest = name.partition(":")
     kind = singular(kind)
+    if kind in RENAMED and rest:
+        asked_kind(kind)
+        return OLD_KINDS[kind], rest
     if kind in KINDS and rest:
         return KINDS[kind], rest
     offers = [provider for provider in installed() if provider.group != HOOKS]

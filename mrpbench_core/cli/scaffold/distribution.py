@@ -40,7 +40,7 @@ _FILES: Mapping[Form, Mapping[str, str]] = {
         "python/{package}/_solver.pyi": "native/solver.pyi.txt",
     },
 }
-"""The files of each form, and their templates. A kind may have a template of its test."""
+"""The files of each form, and their templates."""
 
 
 def write(plugin: Plugin, folder: Path) -> None:
@@ -68,8 +68,6 @@ def contents(plugin: Plugin) -> dict[str, str]:
     """Return the text of each file, by its path in the folder."""
     names = {"package": plugin.package, "name": plugin.name, "kind": plugin.kind}
     templates = {file.format_map(names): path.format_map(names) for file, path in _FILES[plugin.form].items()}
-    if (own := f"tests/{plugin.kind}.py.txt") and TEMPLATES.joinpath(own).is_file():
-        templates[f"tests/test_{plugin.name}.py"] = own
     placeholders = plugin.placeholders | {"requires": _requires(plugin)}
     return {file: _filled(_text(path), placeholders) for file, path in templates.items()}
 

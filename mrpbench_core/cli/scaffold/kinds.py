@@ -34,14 +34,14 @@ KINDS: Mapping[str, Kind] = {
     ),
     "crowd": Kind(usage="In a configuration: `crowds: [$name]`."),
     "executor": Kind(usage="On the command line: `mrpbench run STUDY.yaml --workers 4 --executor $name`."),
-    "exporter": Kind(
-        usage="In a configuration: `export: [$name]`; for a finished run: `mrpbench export RUN --to $name`."
+    "format": Kind(
+        usage="In a configuration: `export: [$name]`; of a finished run: `mrpbench export RUN --to $name`;"
+        " to read a recording: `mrpbench analyze FILE --format $name`."
     ),
     "hook": Kind(
         usage="It observes every study as soon as it is installed; `MRPBENCH_DISABLE_PLUGINS=$name` turns it off.",
         instance="hooks",
     ),
-    "importer": Kind(usage="On the command line: `mrpbench analyze FILE --importer $name`."),
     "metric": Kind(usage="In a configuration: `metrics: [planning, execution, $name]`."),
     "mppi_critic": Kind(
         usage="In a configuration: `controller: {plugin: mppi, extra_critics: [{plugin: $name, cost_weight: 5.0}]}`.",

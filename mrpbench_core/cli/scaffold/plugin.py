@@ -12,7 +12,7 @@ from mrpbench_core.cli.scaffold.kinds import TEMPLATES, Kind, facts_of, kinds
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import suggest
 from mrpbench_core.plugins.installed import installed
-from mrpbench_core.plugins.kinds import group_of, singular
+from mrpbench_core.plugins.kinds import asked_kind, group_of
 from mrpbench_core.version import __version__
 
 NAME = re.compile(r"[a-z][a-z0-9]*([_-][a-z0-9]+)*")
@@ -99,7 +99,7 @@ def named(kind: str, name: str, form: Form = "python") -> Plugin:
     Raises:
         InputError: there is no template for the kind, or the name is invalid or taken.
     """
-    kind = singular(kind)
+    kind = asked_kind(kind)
     if kind not in kinds():
         raise InputError(
             f"there is no template for a {kind!r}", hint=suggest(kind, set(kinds()), f"there are {', '.join(kinds())}")

@@ -54,7 +54,7 @@ def execute_plan(
     No unfinished recording or export gets its final name.
 
     Returns:
-        How the run ended, None if every robot arrived; why an export failed, by the exporter's name; and, in runs with
+        How the run ended, None if every robot arrived; why an export failed, by the format's name; and, in runs with
         faults, why robots did not arrive, by their names.
 
     Raises:

@@ -5,7 +5,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from mrpbench_core.api.exporter import Exporter, ExporterSession
+from mrpbench_core.api.format import FormatWriter, WritableFormat
 from mrpbench_core.files.disk import is_full
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.model.runs.recording import Chunk
@@ -13,46 +13,46 @@ from mrpbench_core.model.runs.run import RunContext
 
 
 class Exports:
-    """Passes chunks to every exporter, except those that failed."""
+    """Passes chunks to the writer of every format, except those that failed."""
 
     def __init__(self) -> None:
         self.failed: dict[str, str] = {}
         """The reason why an export failed, by its name."""
-        self._open: dict[str, ExporterSession] = {}
+        self._open: dict[str, FormatWriter] = {}
 
-    def open(self, exporters: Mapping[str, Exporter], context: RunContext, folder: Path) -> None:
+    def open(self, formats: Mapping[str, WritableFormat], context: RunContext, folder: Path) -> None:
         """Begin them in `folder`.
 
         Raises:
-            InputError: an exporter's option does not fit.
+            InputError: an option of a format does not fit.
         """
-        if exporters:
+        if formats:
             folder.mkdir(parents=True, exist_ok=True)
-        for name, exporter in exporters.items():
+        for name, chosen in formats.items():
             try:
-                self._open[name] = exporter.open(context, folder / name)
+                self._open[name] = chosen.open(context, folder / name)
             except (InputError, MemoryError):  # the user's to mend; the run's limit
                 raise
             except (Exception, SystemExit) as error:  # noqa: BLE001 - a plugin may raise anything
                 self._note(name, error)
 
     def write(self, chunk: Chunk) -> None:
-        """Pass a chunk to the exporters."""
-        self._each(lambda session: session.write(chunk))
+        """Pass a chunk to them."""
+        self._each(lambda writer: writer.write(chunk))
 
     def close(self) -> None:
         """Finish them."""
-        self._each(lambda session: session.close())
+        self._each(lambda writer: writer.close())
 
     def abandon(self) -> None:
         """Abandon all exports because the run failed."""
         for name in list(self._open):
             self._drop(name)
 
-    def _each(self, act: Callable[[ExporterSession], Any]) -> None:
-        for name, session in list(self._open.items()):
+    def _each(self, act: Callable[[FormatWriter], Any]) -> None:
+        for name, writer in list(self._open.items()):
             try:
-                act(session)
+                act(writer)
             except MemoryError:
                 raise
             except (Exception, SystemExit) as error:  # noqa: BLE001 - as above

@@ -1,4 +1,4 @@
-"""A run as metrics and exporters see it."""
+"""A run as metrics and formats see it."""
 
 from collections.abc import Callable, Mapping
 from typing import Any

@@ -14,8 +14,7 @@ from mrpbench_core.testing.suites.crowd import CrowdConformance
 from mrpbench_core.testing.suites.discrete import DiscreteSimulatorConformance
 from mrpbench_core.testing.suites.dispatcher import DispatcherConformance
 from mrpbench_core.testing.suites.executor import ExecutorConformance
-from mrpbench_core.testing.suites.exporter import ExporterConformance
-from mrpbench_core.testing.suites.importer import ImporterConformance
+from mrpbench_core.testing.suites.format import FormatConformance
 from mrpbench_core.testing.suites.localizer import LocalizerConformance
 from mrpbench_core.testing.suites.metric import MetricConformance
 from mrpbench_core.testing.suites.navigator import NavigatorConformance
@@ -41,8 +40,7 @@ SUITES: dict[str, type[ComponentConformance]] = {
     "simulator": SimulatorConformance,
     "crowd": CrowdConformance,
     "metric": MetricConformance,
-    "exporter": ExporterConformance,
-    "importer": ImporterConformance,
+    "format": FormatConformance,
     "executor": ExecutorConformance,
     "recovery": RecoveryConformance,
 }

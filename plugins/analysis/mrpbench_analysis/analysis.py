@@ -12,7 +12,7 @@ import numpy as np
 
 from mrpbench_analysis.observed_run import ObservedRun, Sampling, observe, observe_own
 from mrpbench_core.api.component import Component
-from mrpbench_core.api.importer import Importer, Observed
+from mrpbench_core.api.format import Observed, ReadableFormat
 from mrpbench_core.api.metric import Metric
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.config.canonical import canonical_component
@@ -31,6 +31,7 @@ from mrpbench_core.model.execution.motion import Mode
 from mrpbench_core.model.runs.routes import with_latest_routes
 from mrpbench_core.model.runs.run import FinishedRun, RunContext
 from mrpbench_core.model.runs.status import RunStatus, Stage
+from mrpbench_core.plugins.checkout import version_of
 from mrpbench_core.plugins.provenance import provenance
 from mrpbench_core.referee.measuring import describe, measure
 from mrpbench_core.store.folder import ResultsFolder, new_invocation
@@ -42,6 +43,7 @@ from mrpbench_core.store.run_files import seal
 
 BLOCK = 2**20
 UNIDENTIFYING = ("name", "metrics", "simulator")
+DISTRIBUTION = "mrpbench-analysis"
 LENGTH = 16
 """Hexadecimal digits of a run id."""
 
@@ -51,7 +53,7 @@ class Analysis:
     """The recording to measure, and how to measure it."""
 
     bag: Path
-    importer: Importer
+    format: ReadableFormat
     metrics: dict[str, Metric]
     world: WorldSource | None = None
     """None = as the recording says, which only those of mrpbench do."""
@@ -72,7 +74,7 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
     Raises:
         InputError: the recording cannot be read or does not fit the scenario; says what there is.
     """
-    observed = _in_order(analysis.importer.read(analysis.bag, analysis.robots), analysis.robots)
+    observed = _in_order(analysis.format.read(analysis.bag, analysis.robots), analysis.robots)
     found = _observe(analysis, observed)
     identity = _identity(analysis, found)
     first = attrs.evolve(found.context, run_id=identity)
@@ -188,7 +190,7 @@ def _config(analysis: Analysis, fleet: Fleet) -> dict[str, Any]:
         "simulator": {"plugin": analysis.label},
         "metrics": [_plain(metric) for metric in analysis.metrics.values()],
         "recording": {"rate": analysis.sampling.rate},
-        "analysis": {"importer": _plain(analysis.importer), **attrs.asdict(analysis.sampling)},
+        "analysis": {"format": _plain(analysis.format), **attrs.asdict(analysis.sampling)},
     }
 
 
@@ -211,7 +213,8 @@ def _identity(analysis: Analysis, found: ObservedRun) -> str:
 
 
 def _code(analysis: Analysis) -> dict[str, Any]:
-    return with_versions(provenance([analysis.importer, analysis.world, *analysis.metrics.values()], Path.cwd()))
+    code = with_versions(provenance([analysis.format, analysis.world, *analysis.metrics.values()], Path.cwd()))
+    return code | {"versions": code["versions"] | {DISTRIBUTION: version_of(DISTRIBUTION)}}
 
 
 def _keep(analysis: Analysis, found: ObservedRun, record: StoredRecord) -> StoredRecord:

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_analysis.resampling import resample
-from mrpbench_core.api.importer import Observed, Signal, Track
+from mrpbench_core.api.format import Observed, Signal, Track
 from mrpbench_core.model.common.arrays import Float
 
 SILENCE = 0.5

@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.api.importer import Track
+from mrpbench_core.api.format import Track
 
 STEP = 0.02
 """metres. A shorter step between two poses has no direction."""

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import attrs
 
-from mrpbench_core.api.importer import Track
+from mrpbench_core.api.format import Track
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.planning.scenario import Scenario

@@ -12,7 +12,7 @@ from mrpbench_analysis.headings import with_headings
 from mrpbench_analysis.matching import match
 from mrpbench_analysis.resampling import even_times, resample
 from mrpbench_analysis.walls import poses_in_walls
-from mrpbench_core.api.importer import Observed, Track
+from mrpbench_core.api.format import Observed, Track
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Float, Int16, Int32
 from mrpbench_core.model.common.fleet import Fleet

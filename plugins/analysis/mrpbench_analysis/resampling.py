@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.api.importer import Track
+from mrpbench_core.api.format import Track
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.common.arrays import Float
 

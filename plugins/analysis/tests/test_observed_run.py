@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from mrpbench_analysis.observed_run import Sampling, observe
 from mrpbench_analysis.resampling import even_times, resample
 
-from mrpbench_core.api.importer import Observed, Track
+from mrpbench_core.api.format import Observed, Track
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet, RobotModel
 from mrpbench_core.model.planning.scenario import Scenario, Task

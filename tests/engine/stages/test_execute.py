@@ -17,17 +17,17 @@ RUN = {
     "planner": "example",
     "limits": {"execution": "8 s"},
 }
-EXPORTERS = """
+FORMATS = """
 import errno
 from pathlib import Path
 
 import attrs
 
-from mrpbench_core.api import Exporter, ExporterSession, option
+from mrpbench_core.api import FormatWriter, WritableFormat, option
 from mrpbench_core.files.errors import InputError
 
 
-class Session(ExporterSession):
+class Session(FormatWriter):
     def __init__(self, file, fails):
         self.file, self.fails = file, fails
         file.touch()
@@ -48,13 +48,13 @@ class Session(ExporterSession):
 
 
 @attrs.frozen(kw_only=True)
-class Fine(Exporter):
+class Fine(WritableFormat):
     def open(self, context, destination):
         return Session(destination, None)
 
 
 @attrs.frozen(kw_only=True)
-class Broken(Exporter):
+class Broken(WritableFormat):
     when: str = option("open", help="it fails")
 
     def open(self, context, destination):
@@ -96,10 +96,10 @@ def test_the_error_of_an_aborted_run_names_robots_that_gave_up_and_the_cause(tmp
 @pytest.mark.parametrize("when", ["open", "write", "close", "exit"])
 def test_an_export_that_fails_is_named_and_costs_nothing_else(tmp_path, monkeypatch, when):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "exporters.py").write_text(EXPORTERS)
+    (tmp_path / "formats.py").write_text(FORMATS)
     whole = executed(tmp_path)
-    broken = {"plugin": "./exporters.py:Broken", "when": when}
-    record = executed(tmp_path, export=[broken, {"plugin": "./exporters.py:Fine"}])
+    broken = {"plugin": "./formats.py:Broken", "when": when}
+    record = executed(tmp_path, export=[broken, {"plugin": "./formats.py:Fine"}])
     (name,) = record["unexported"]
     assert "Broken" in name
     assert record["unexported"][name].endswith(f"not this time: {when}")
@@ -112,19 +112,17 @@ def test_an_export_that_fails_is_named_and_costs_nothing_else(tmp_path, monkeypa
 
 def test_a_full_disk_fails_the_run_and_not_one_export_alone(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "exporters.py").write_text(EXPORTERS)
+    (tmp_path / "formats.py").write_text(FORMATS)
     with pytest.raises(OSError, match="no space left"):
-        executed(
-            tmp_path, export=[{"plugin": "./exporters.py:Fine"}, {"plugin": "./exporters.py:Broken", "when": "full"}]
-        )
+        executed(tmp_path, export=[{"plugin": "./formats.py:Fine"}, {"plugin": "./formats.py:Broken", "when": "full"}])
     assert list((tmp_path / "recordings").iterdir()) == []
     assert list((tmp_path / "exports").iterdir()) == []
 
 
-def test_an_option_of_an_exporter_that_does_not_fit_is_the_users_to_mend(tmp_path, monkeypatch):
+def test_an_option_of_a_format_that_does_not_fit_is_the_users_to_mend(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "exporters.py").write_text(EXPORTERS)
+    (tmp_path / "formats.py").write_text(FORMATS)
     with pytest.raises(InputError, match="no such place"):
-        executed(tmp_path, export=[{"plugin": "./exporters.py:Fine"}, {"plugin": "./exporters.py:Broken", "when": ""}])
+        executed(tmp_path, export=[{"plugin": "./formats.py:Fine"}, {"plugin": "./formats.py:Broken", "when": ""}])
     assert list((tmp_path / "recordings").iterdir()) == []
     assert list((tmp_path / "exports").iterdir()) == []

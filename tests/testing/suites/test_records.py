@@ -1,4 +1,4 @@
-"""The suites catch faults of metrics and exporters: each plugin here has one and fails its check."""
+"""The suites catch faults of metrics and formats: each plugin here has one and fails its check."""
 
 import attrs
 import numpy as np
@@ -6,9 +6,9 @@ import pytest
 
 from mrpbench_core.api import (
     Column,
-    Exporter,
-    ExporterSession,
+    FormatWriter,
     Metric,
+    WritableFormat,
     option,
 )
 from mrpbench_core.testing import failed_checks, suite_for
@@ -52,7 +52,7 @@ def test_a_metric(changes, check):
 
 
 @attrs.frozen(kw_only=True)
-class Text(Exporter):
+class Text(WritableFormat):
     """Counts samples in a text file."""
 
     mode: str = option("w", help="how to open the file")
@@ -63,7 +63,7 @@ class Text(Exporter):
         return TextSession(self, destination)
 
 
-class TextSession(ExporterSession):
+class TextSession(FormatWriter):
     def __init__(self, options, destination):
         self.options, self.file = options, destination.with_suffix(".txt")
         self.stream = self.file.open(options.mode)
@@ -82,7 +82,7 @@ class TextSession(ExporterSession):
             self.file.unlink()
 
 
-def test_an_exporter():
+def test_a_format_that_is_written():
     assert not failed_checks(suite_for(Text()))
     assert set(failed_checks(suite_for(Text(mode="a")))) == {"replaces an earlier export"}
     assert set(failed_checks(suite_for(Text(scratch=True)))) == {"writes a run", "replaces an earlier export"}

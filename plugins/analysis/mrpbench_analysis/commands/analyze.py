@@ -1,6 +1,7 @@
 """`mrpbench analyze BAG`: compute the metrics of runs for a recording of a real fleet or of another simulator."""
 
 import argparse
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -19,8 +20,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
         "A bag that mrpbench wrote needs neither --world nor --scenario. If there is no plan, a robot reaches a goal"
-        " when it first comes within --tolerance of it. Patterns for topics are options of the importer:"
-        " `mrpbench plugins show importer:rosbag2`."
+        " when it first comes within --tolerance of it. Patterns for topics are options of the format:"
+        " `mrpbench plugins show rosbag2`."
     )
     parser.add_argument("bag", metavar="BAG", help="a rosbag2: a folder, or one .mcap or .db3 file")
     parser.add_argument("--world", metavar="FILE|NAME", help="file of a world, or name of a built-in world")
@@ -54,10 +55,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="distance at which a goal counts as reached (default: %(default)g)",
     )
     parser.add_argument("--metrics", metavar="A,B", help="metrics to compute (default: those that a run computes)")
-    parser.add_argument(
-        "--importer", default="rosbag2", metavar="NAME", help="importer that reads BAG (default: %(default)s)"
-    )
-    parser.add_argument("--option", action="append", default=[], metavar="K=V", help="option of the importer")
+    parser.add_argument("--format", default="rosbag2", metavar="NAME", help="format of BAG (default: %(default)s)")
+    parser.add_argument("--importer", metavar="NAME", help=argparse.SUPPRESS)  # its name in release 0.2
+    parser.add_argument("--option", action="append", default=[], metavar="K=V", help="option of the format")
     parser.add_argument("--label", default="recorded", help="value of `simulator` in tables (default: %(default)s)")
     parser.add_argument("--out", metavar="DIR", help="results folder (default: results/<name of BAG>)")
     parser.add_argument("--json", action="store_true", help="print the record as JSON")
@@ -67,6 +67,9 @@ def run(arguments: argparse.Namespace) -> int:
     """Measure the bag, store the record and print it."""
     from mrpbench_core.engine.processes.call import in_worker
 
+    if arguments.importer is not None:
+        sys.stderr.write("note: --importer is now --format; the next release does not read the old name\n")
+        arguments.format = arguments.importer
     out = arguments.out or str(Path("results", followed(arguments.bag).stem))
     record = in_worker(f"{arguments.bag} cannot be analyzed", analyzed, {**vars(arguments), "out": out})
     print_json(record) if arguments.json else _print(record, out)
@@ -77,7 +80,7 @@ def analyzed(words: dict[str, Any]) -> dict[str, Any]:
     """In a worker process: measure the bag and store the record; return it."""
     from mrpbench_analysis.analysis import Analysis, analyze
     from mrpbench_analysis.observed_run import Sampling
-    from mrpbench_core.api.importer import Importer
+    from mrpbench_core.api.format import ReadableFormat
     from mrpbench_core.api.metric import Metric
     from mrpbench_core.cli.input.world import world_source
     from mrpbench_core.config.settings import default_plugin
@@ -87,12 +90,12 @@ def analyzed(words: dict[str, Any]) -> dict[str, Any]:
         if not 0 < getattr(arguments, name) < float("inf"):
             raise InputError(f"--{name.replace('_', '-')}: must be above 0, got {getattr(arguments, name):g}")
     metrics = default_plugin("metrics") if arguments.metrics is None else _names(arguments.metrics)
-    options = {"plugin": arguments.importer, **read_options(arguments.option, "--option")}
+    options = {"plugin": arguments.format, **read_options(arguments.option, "--option")}
     if arguments.fleet is not None:
         options["fleet"] = arguments.fleet
     analysis = Analysis(
         bag=Path(arguments.bag),
-        importer=_component(Importer, options, "--importer"),
+        format=_component(ReadableFormat, options, "--format"),
         metrics={name: _component(Metric, {"plugin": name}, "--metrics") for name in metrics},
         world=None if arguments.world is None else world_source(arguments.world),
         scenario=None if arguments.scenario is None else Path(arguments.scenario),

@@ -1,4 +1,4 @@
-"""Every message of a bag that the exporter wrote, read by ROS's own type support."""
+"""Every message of a bag that mrpbench wrote, read by ROS's own type support."""
 
 import importlib
 import sqlite3

@@ -1,5 +1,5 @@
-"""Writes runs as rosbag2 bags."""
+"""The format `rosbag2`."""
 
-from mrpbench_exporters_rosbag2.exporter import Rosbag2
+from mrpbench_exporters_rosbag2.rosbag2 import Rosbag2
 
 __all__ = ["Rosbag2"]

@@ -4,7 +4,6 @@ import attrs
 import numpy as np
 import pytest
 from mrpbench_exporters_rosbag2 import Rosbag2
-from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
 
 from mrpbench_core.model.execution.movers import Mover
 
@@ -72,7 +71,7 @@ def test_markers_show_bodies_and_delete_those_of_absent_ones(bag, read):
 
 
 def test_the_importer_restores_movers_and_contacts_with_them(bag, walking, peopled):
-    observed = FromRosbag2().read(bag)
+    observed = Rosbag2().read(bag)
     assert observed.notes == ()
     for channel in ("mover", "mover_level", "mover_arrivals", "contact"):
         assert np.array_equal(observed.channels[channel], walking[channel]), channel

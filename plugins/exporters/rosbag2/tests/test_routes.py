@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from mrpbench_analysis.analysis import Analysis, analyze
 from mrpbench_exporters_rosbag2 import Rosbag2
-from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
 
 from mrpbench_core import run
 from mrpbench_core.api import Metric
@@ -41,7 +40,7 @@ def test_viewers_get_the_paths_of_every_plan(bag, read):
 
 
 def test_the_first_routes_and_all_rows_of_later_ones_come_back(bag, context):
-    observed = FromRosbag2().read(bag)
+    observed = Rosbag2().read(bag)
     for name, rows in NEW.items():
         np.testing.assert_array_equal(observed.channels[name], rows)
     for found, wanted in zip(observed.context.routes, context.routes, strict=True):
@@ -100,8 +99,8 @@ def test_a_run_with_new_plans_comes_back_with_its_numbers(tmp_path, monkeypatch)
     bag = tmp_path / f"results/replanned/exports/{record['run_id']}/rosbag2"
     local = next(name for name in record["metrics"] if name.endswith(".estimate")).removesuffix(".estimate")
     metrics = {name: Registry(Metric).get(name)() for name in names} | {local: _local(tmp_path / "beside.py")}
-    found = analyze(Analysis(bag=bag, importer=FromRosbag2(), metrics=metrics, out=tmp_path / "back"))
-    observed = FromRosbag2().read(bag)
+    found = analyze(Analysis(bag=bag, format=Rosbag2(), metrics=metrics, out=tmp_path / "back"))
+    observed = Rosbag2().read(bag)
     assert "route_time" in observed.channels
     assert (found["status"], found["unmeasured"]) == (record["status"], {})
     assert found["metrics"].keys() == record["metrics"].keys()
@@ -109,7 +108,7 @@ def test_a_run_with_new_plans_comes_back_with_its_numbers(tmp_path, monkeypatch)
         assert found["metrics"][name] == pytest.approx(value, abs=1e-6), name
 
     assert main(["export", "results/replanned", "--to", "rosbag2", "--out", "again"]) == 0
-    again = FromRosbag2().read(tmp_path / "again")
+    again = Rosbag2().read(tmp_path / "again")
     for one, other in zip(observed.context.routes, again.context.routes, strict=True):
         np.testing.assert_array_equal(one.waypoint, other.waypoint)
     assert observed.channels.keys() == again.channels.keys()

@@ -6,7 +6,6 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mrpbench_analysis.observed_run import Sampling, observe
 from mrpbench_exporters_rosbag2 import Rosbag2
-from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
 
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.scenario import Scenario, Task
@@ -38,7 +37,7 @@ def test_every_channel_of_a_run_comes_back(context, recording, tmp_path_factory,
         recording[channel][:, 0, 2] = yaw
         recording[channel][..., :2] += places
     bag = export(context, recording, tmp_path_factory.mktemp("turning") / "bag", start_time=start)
-    found = FromRosbag2().read(bag)
+    found = Rosbag2().read(bag)
     assert found.notes == ()
     for name in EXACT:
         assert found.channels[name].shape == recording[name].shape, name
@@ -52,18 +51,18 @@ def test_every_channel_of_a_run_comes_back(context, recording, tmp_path_factory,
 def test_a_channel_whose_topics_were_not_written_is_missing(context, recording, tmp_path, left_out, lacking):
     kept = [f"/robot_*/{name}" for name in ("odom", "cmd_vel", "scan", "ground_truth") if name != left_out]
     bag = export(context, recording, tmp_path / "bag", topics=("/run_data", "/progress", "/tf", *kept))
-    assert set(EXACT) - FromRosbag2().read(bag).channels.keys() == lacking
+    assert set(EXACT) - Rosbag2().read(bag).channels.keys() == lacking
 
 
 def test_a_channel_that_one_robot_lacks_is_missing_and_said(context, recording, tmp_path):
     topics = ("/run_data", "/progress", "/robot_*/ground_truth", "/robot_0/odom")
-    found = FromRosbag2().read(export(context, recording, tmp_path / "bag", topics=topics))
+    found = Rosbag2().read(export(context, recording, tmp_path / "bag", topics=topics))
     assert "odometry" not in found.channels
     assert found.notes == ("not every robot has every sample of odometry: it was not read",)
 
 
 def observed(bag, context, **options):
-    found = FromRosbag2(**options).read(bag)
+    found = Rosbag2(**options).read(bag)
     names = [track.robot for track in found.tracks]
     scenario = Scenario(
         start=[[0.0, index, 0.0] for index in range(len(names))],

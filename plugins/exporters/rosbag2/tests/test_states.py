@@ -4,7 +4,6 @@ import attrs
 import numpy as np
 import pytest
 from mrpbench_exporters_rosbag2 import Rosbag2
-from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
 from rosbags.highlevel import AnyReader
 
 from mrpbench_core.model.worlds.world import Door, Level, Lift
@@ -77,7 +76,7 @@ def test_the_states_come_back_through_rosbags_and_our_importer(house, moving, tm
     assert kinds["/lift_states"] == "rmf_lift_msgs/msg/LiftState"
     assert kinds["/robot_0/amcl_pose"] == "geometry_msgs/msg/PoseWithCovarianceStamped"
     assert len(read) == 18
-    observed = FromRosbag2().read(bag)
+    observed = Rosbag2().read(bag)
     assert np.array_equal(observed.channels["facility"], moving["facility"])
     assert observed.notes == ()
 
@@ -105,6 +104,6 @@ def test_covariances_are_the_mean_squared_errors_so_far(house, moving, tmp_path,
 
 def test_estimates_come_back_from_amcl_pose_alone(house, moving, tmp_path):
     bag = written(house, moving, tmp_path / "bag", topics=("/robot_*/amcl_pose",))
-    tracks = FromRosbag2().read(bag).tracks
+    tracks = Rosbag2().read(bag).tracks
     assert [(track.robot, track.source) for track in tracks] == [("robot_0", "amcl_pose"), ("robot_1", "amcl_pose")]
     assert tracks[0].pose[:, :2] == pytest.approx(moving["estimate"][::10, 0, :2])

@@ -8,8 +8,8 @@ import pytest
 from mcap.well_known import MessageEncoding
 from mcap.writer import Writer as BareWriter
 from mcap_ros2.writer import Writer
+from mrpbench_exporters_rosbag2 import Rosbag2
 from mrpbench_exporters_rosbag2.reading.bounds import check_definition
-from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
 from mrpbench_exporters_rosbag2.reading.stream import Stream
 from rosbags.interfaces import Connection, MessageDefinition, MessageDefinitionFormat
 from rosbags.typesys import get_types_from_msg
@@ -71,7 +71,7 @@ def write(file, topic, text, **more):
 @pytest.mark.parametrize(("text", "more"), [(STAMPED, {}), (EXTENDED, {"site": "hall 3"})])
 def test_other_names_and_definitions_of_their_own_are_read(tmp_path, text, more):
     file = write(tmp_path / "site.mcap", "/fleet/{}/pose", text, **more)
-    observed = FromRosbag2(amcl_pose=("/fleet/{robot}/pose",)).read(file)
+    observed = Rosbag2(amcl_pose=("/fleet/{robot}/pose",)).read(file)
     assert [(track.robot, track.source) for track in observed.tracks] == [
         ("husky", "amcl_pose"),
         ("jackal", "amcl_pose"),
@@ -84,7 +84,7 @@ def test_other_names_and_definitions_of_their_own_are_read(tmp_path, text, more)
 def test_without_a_pattern_that_fits_the_topics_are_listed(tmp_path):
     file = write(tmp_path / "site.mcap", "/fleet/{}/pose", STAMPED)
     with pytest.raises(InputError, match="holds no pose of any robot") as caught:
-        FromRosbag2().read(file)
+        Rosbag2().read(file)
     for words in ("/fleet/husky/pose (geometry_msgs/PoseStamped)", "/battery (acme_msgs/Battery)", "--option"):
         assert words in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -104,7 +104,7 @@ def test_files_that_are_not_of_ros_2_are_refused_in_one_line(tmp_path, encoding,
         writer.add_message(channel_id=channel, log_time=1, publish_time=1, data=data)
         writer.finish()
     with pytest.raises(InputError) as caught:
-        FromRosbag2().read(file)
+        Rosbag2().read(file)
     assert "\n" not in str(caught.value)
 
 
@@ -118,7 +118,7 @@ def test_a_definition_that_makes_no_sense_is_named(tmp_path):
         writer.add_message(channel_id=channel, log_time=1, publish_time=1, data=b"\x00\x01\x00\x00")
         writer.finish()
     with pytest.raises(InputError, match=r"/a/amcl_pose: its type geometry_msgs/msg/PoseStamped is not understood"):
-        FromRosbag2().read(file)
+        Rosbag2().read(file)
 
 
 @pytest.mark.parametrize(
@@ -169,7 +169,7 @@ def stamped(t, x, y):
 
 def test_a_database_without_definitions_is_read_by_those_of_ros(tmp_path):
     data = [(int((5 + t) * 1e9), stamped(5 + t, 2 * t, 1.0)) for t in np.arange(0, 3, 0.25)]
-    (track,) = FromRosbag2().read(sqlite(tmp_path / "old.db3", "geometry_msgs/msg/PoseStamped", data)).tracks
+    (track,) = Rosbag2().read(sqlite(tmp_path / "old.db3", "geometry_msgs/msg/PoseStamped", data)).tracks
     assert track.time == pytest.approx(np.arange(0, 3, 0.25))
     assert track.pose[:, :2] == pytest.approx(np.array([(2 * t, 1.0) for t in np.arange(0, 3, 0.25)]))
 
@@ -177,7 +177,7 @@ def test_a_database_without_definitions_is_read_by_those_of_ros(tmp_path):
 def test_a_database_of_an_unknown_type_is_refused(tmp_path):
     file = sqlite(tmp_path / "own.db3", "acme_msgs/msg/Place", [(1, b"\x00\x01\x00\x00")])
     with pytest.raises(InputError, match=r"holds no pose of any robot.*acme_msgs/Place"):
-        FromRosbag2().read(file)
+        Rosbag2().read(file)
 
 
 @pytest.mark.parametrize(
@@ -196,9 +196,9 @@ def test_a_database_with_values_of_other_kinds_is_damaged_there(tmp_path, change
     base.close()
     if "topic" in said:
         with pytest.raises(InputError, match=said):
-            FromRosbag2().read(file)
+            Rosbag2().read(file)
     else:
-        observed = FromRosbag2().read(file)
+        observed = Rosbag2().read(file)
         assert len(observed.tracks[0].time) == 4
         assert not observed.complete
         assert any(said in note for note in observed.notes)

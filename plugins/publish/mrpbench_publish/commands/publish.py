@@ -6,13 +6,13 @@ import sys
 from datetime import date
 from pathlib import Path
 
-from mrpbench_core.cli.input.arguments import read_share
 from mrpbench_core.cli.output.table import print_json
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import counted
 from mrpbench_core.store.results import load
 from mrpbench_publish.bundles.publish import PublishOptions, publish
+from mrpbench_publish.commands.share import read_share
 from mrpbench_publish.files.description import Author
 
 

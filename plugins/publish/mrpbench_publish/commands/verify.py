@@ -6,7 +6,6 @@ import sys
 from contextlib import nullcontext, redirect_stdout
 from pathlib import Path
 
-from mrpbench_core.cli.input.arguments import read_share
 from mrpbench_core.cli.output.progress import Printed
 from mrpbench_core.cli.output.table import print_json
 from mrpbench_core.engine.processes.slots import slots_of_this_process
@@ -15,6 +14,7 @@ from mrpbench_core.files.output import write_page_file
 from mrpbench_core.files.text import counted
 from mrpbench_publish.bundles.verdict import Check
 from mrpbench_publish.bundles.verify import VerifyOptions, verify
+from mrpbench_publish.commands.share import read_share
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

@@ -10,12 +10,12 @@ import numpy as np
 from mrpbench_core.api.metric import Column
 from mrpbench_core.report.estimation.estimates import Numbers
 from mrpbench_core.report.estimation.groups import Setting
-from mrpbench_core.report.estimation.ranks import Rank, rank_groups
 from mrpbench_core.report.reading.axes import name_axes, word
 from mrpbench_core.report.reading.columns import direction, heading
 from mrpbench_core.report.report import Report
 from mrpbench_core.report.statistics.estimate import IntervalEstimate
 from mrpbench_core.report.tables.table import Shown
+from mrpbench_publish.site.ranks import Rank, rank_groups
 
 _PLANS = "planning only"
 _IN_TITLE = ("world.plugin", "scenario.robots", "simulator.plugin")

@@ -8,7 +8,7 @@ import attrs
 import numpy as np
 from numpy.typing import NDArray
 
-from mrpbench_core.api.importer import Signal
+from mrpbench_core.api.format import Signal
 from mrpbench_core.model.common.arrays import Int
 from mrpbench_exporters_rosbag2.messages import SECOND
 from mrpbench_exporters_rosbag2.reading.collected import Take, nanoseconds

@@ -1,12 +1,12 @@
-"""The importer `rosbag2`, which turns the messages of a bag into one track per robot."""
+"""Reads one bag: its messages become one track per robot."""
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import attrs
 
-from mrpbench_core.api.component import option
-from mrpbench_core.api.importer import SOURCES, Importer, Observed, Track
+from mrpbench_core.api.format import SOURCES, Observed, Track
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_exporters_rosbag2.messages import SECOND
 from mrpbench_exporters_rosbag2.reading.collected import Collected, Patterns
@@ -17,33 +17,20 @@ from mrpbench_exporters_rosbag2.reading.signals import Signals
 from mrpbench_exporters_rosbag2.reading.stream import Stream
 from mrpbench_exporters_rosbag2.reading.transforms import placed
 
+if TYPE_CHECKING:
+    from mrpbench_exporters_rosbag2.rosbag2 import Rosbag2
+
 ESTIMATES = ("tf", "amcl_pose")
 """Sources of estimated poses, the best first."""
 SHOWN = 12
 """Topics that a message lists."""
 
 
-@attrs.frozen(kw_only=True)
-class FromRosbag2(Importer):
-    """Reads a rosbag2 (mcap or sqlite3) of any ROS 2 distribution, with the message definitions that it holds.
+@attrs.frozen
+class BagReader:
+    """Reads a bag with the message definitions that it holds."""
 
-    In patterns, `{robot}` stands for a robot's name; where no topic fits, a lone robot is looked for in `/odom` and so
-    on. Poses of topics are read from Odometry, PoseStamped and PoseWithCovarianceStamped, by the stamps of their
-    headers; by the log time where a topic has none.
-    """
-
-    ground_truth: tuple[str, ...] = option(("/{robot}/ground_truth",), help="topics with true poses in `map`")
-    amcl_pose: tuple[str, ...] = option(("/{robot}/amcl_pose",), help="topics with poses that localization estimates")
-    odometry: tuple[str, ...] = option(("/{robot}/odom",), help="topics with odometry")
-    command: tuple[str, ...] = option(("/{robot}/cmd_vel",), help="topics with commands, Twist or TwistStamped")
-    scan: tuple[str, ...] = option(("/{robot}/scan",), help="topics with laser scans; empty = they are left out")
-    tf: tuple[str, ...] = option(("/{robot}/tf",), help="topics with the transforms of one robot, in addition to `/tf`")
-    fleet_states: tuple[str, ...] = option(("/fleet_states",), help="topics with rmf_fleet_msgs/FleetState")
-    fleet: str = option("", help="name of the fleet whose states are read; empty = all fleets")
-    map_frame: str = option("map", help="the frame in which the world is given")
-    base_frames: tuple[str, ...] = option(
-        ("{robot}/base_footprint", "{robot}/base_link"), help="frames of the robots' bases, the first that there is"
-    )
+    recipe: "Rosbag2"
 
     def read(self, path: Path, robots: tuple[str, ...] = ()) -> Observed:
         """Read the bag at `path`, a folder or a storage file."""
@@ -88,20 +75,23 @@ class FromRosbag2(Importer):
 
     def _patterns(self, alone: bool) -> tuple[Patterns, tuple[str, ...]]:
         """The patterns of topics, and those of base frames; of a lone robot, or of robots that have names."""
-        by_source = {"ground_truth": self.ground_truth, "amcl_pose": self.amcl_pose, "odometry": self.odometry}
-        bases = self.base_frames
+        options = self.recipe
+        sources = ("ground_truth", "amcl_pose", "odometry")
+        by_source: dict[str, tuple[str, ...]] = {source: getattr(options, source) for source in sources}
+        bases = options.base_frames
         if alone:
             by_source = {source: without_robot(patterns) for source, patterns in by_source.items()}
             bases = without_robot(bases)
-        return Patterns(by_source=by_source, tf=self.tf, fleet_states=self.fleet_states, fleet=self.fleet), bases
+        states, fleet = options.fleet_states, options.fleet
+        return Patterns(by_source=by_source, tf=options.tf, fleet_states=states, fleet=fleet), bases
 
     def _signals(self, alone: bool) -> dict[str, tuple[str, ...]]:
         """The patterns of topics by channel."""
         by_channel = {
-            "truth": self.ground_truth,
-            "odometry": self.odometry,
-            "command": self.command,
-            "scan_ranges": self.scan,
+            "truth": self.recipe.ground_truth,
+            "odometry": self.recipe.odometry,
+            "command": self.recipe.command,
+            "scan_ranges": self.recipe.scan,
         }
         return {channel: without_robot(patterns) if alone else patterns for channel, patterns in by_channel.items()}
 
@@ -147,14 +137,14 @@ class FromRosbag2(Importer):
             poses = None if series is None else series.ordered(span.use_log, span.since, span.until)
             if series is None or poses is None:
                 return None
-            return series.topic, source != "odometry" or series.frame == self.map_frame, poses
+            return series.topic, source != "odometry" or series.frame == self.recipe.map_frame, poses
         for tree in ("", robot):
             edges = dict(_edges(collected, span, tree))
             for frame in bases:
                 base = (frame if not tree else without_robot((frame,))[0]).replace("{robot}", robot)
-                poses = placed(edges, base, self.map_frame)
+                poses = placed(edges, base, self.recipe.map_frame)
                 if poses is not None:
-                    return f"{f'/{tree}' if tree else ''}/tf: {self.map_frame} to {base}", True, poses
+                    return f"{f'/{tree}' if tree else ''}/tf: {self.recipe.map_frame} to {base}", True, poses
         return None
 
     def _nothing(self, path: Path, robots: tuple[str, ...], topics: dict[str, str], notes: list[str]) -> InputError:

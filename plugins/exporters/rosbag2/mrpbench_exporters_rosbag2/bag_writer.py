@@ -1,21 +1,20 @@
-"""The exporter `rosbag2`: which topics it writes, and in which order."""
+"""Writes one run as a bag: which topics, and in which order."""
 
 from collections.abc import Iterator
 from itertools import chain
 from operator import itemgetter
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-import attrs
 import numpy as np
 
-from mrpbench_core.api.component import between, option
-from mrpbench_core.api.exporter import Exporter, ExporterSession
+from mrpbench_core.api.format import FormatWriter
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_exporters_rosbag2 import motion
 from mrpbench_exporters_rosbag2.advance import advance
-from mrpbench_exporters_rosbag2.bag import Bag, Storage, Version
+from mrpbench_exporters_rosbag2.bag import Bag
 from mrpbench_exporters_rosbag2.blocks import AXES, Blocks
 from mrpbench_exporters_rosbag2.covariances import Covariances
 from mrpbench_exporters_rosbag2.doors_and_lifts import FacilityStates, facility_numbers
@@ -32,57 +31,19 @@ from mrpbench_exporters_rosbag2.scans import scan
 from mrpbench_exporters_rosbag2.source import Rows, TopicSource
 from mrpbench_exporters_rosbag2.start import opening
 from mrpbench_exporters_rosbag2.template import STAMP, Template
-from mrpbench_exporters_rosbag2.topics import check_patterns, selected
+from mrpbench_exporters_rosbag2.topics import selected
 
-LATEST_START = 2_140_000_000.0
-"""seconds; ROS 2 counts them in 32 bits."""
+if TYPE_CHECKING:
+    from mrpbench_exporters_rosbag2.rosbag2 import Rosbag2
+
 POSES_PER_BLOCK = 16_384
 """Size of the blocks in memory, about 30 MB."""
 
 
-@attrs.frozen(kw_only=True)
-class Rosbag2(Exporter):
-    """A rosbag2 with the topics and frames that RViz, Foxglove and Nav2 expect."""
-
-    storage: Storage = option("mcap", help="`mcap` (compressed with zstd) or `sqlite3`")
-    version: Version = option(9, help="of the bag's metadata: 9 for Jazzy and later, 8 for Humble and Iron")
-    start_time: float = option(
-        0.0,
-        help="time of the bag's clock when the run begins",
-        unit="s",
-        validator=between(0, LATEST_START),
-    )
-    topics: tuple[str, ...] = option(
-        ("*",), help="patterns of the topics to write, e.g. `/tf*` or `/robot_*/odom`", validator=check_patterns
-    )
-    rmf: Release = option(
-        "humble",
-        help="release of the messages of `/fleet_states`: `galactic` as the original benchmark ran, `humble` to Jazzy, "
-        "or `rolling`",
-    )
-    map_cell_size: float = option(
-        0.05,
-        help="of `/map`; a world that is a raster keeps its own",
-        unit="m",
-        validator=attrs.validators.gt(0),
-    )
-
-    def idle_options(self) -> dict[str, str]:
-        """Return the options of topics that are not written."""
-        needs = {"rmf": "/fleet_states", "map_cell_size": "/map"}
-        return {
-            name: f"`topics` leaves out {topic}" for name, topic in needs.items() if not selected(topic, self.topics)
-        }
-
-    def open(self, context: RunContext, destination: Path) -> "Rosbag2Session":
-        """Begin the bag `destination`, a folder, with what is known before the run."""
-        return Rosbag2Session(self, context, destination)
-
-
-class Rosbag2Session(ExporterSession):
+class BagWriter(FormatWriter):
     """Writes one bag."""
 
-    def __init__(self, recipe: Rosbag2, context: RunContext, destination: Path) -> None:
+    def __init__(self, recipe: "Rosbag2", context: RunContext, destination: Path) -> None:
         self.context = context
         self.names = context.fleet.names
         self.patterns = recipe.topics

@@ -4,7 +4,7 @@ import re
 
 import numpy as np
 import pytest
-from mrpbench_exporters_rosbag2.reading.importer import FromRosbag2
+from mrpbench_exporters_rosbag2 import Rosbag2
 from rosbags.typesys import Stores
 
 from mrpbench_core.files.errors import InputError
@@ -16,7 +16,7 @@ def drive(index, t):
 
 
 def read(bag, *robots, **options):
-    return FromRosbag2(**options).read(bag.close(), robots)
+    return Rosbag2(**options).read(bag.close(), robots)
 
 
 def sources(observed):
@@ -189,23 +189,23 @@ def filled(foreign, storage, step=0.02):
 @pytest.mark.parametrize("storage", ["mcap", "sqlite3"])
 def test_a_bag_without_metadata_is_read(foreign, storage):
     path, file = filled(foreign, storage)
-    whole = FromRosbag2().read(path).tracks[0]
-    assert np.array_equal(FromRosbag2().read(file).tracks[0].pose, whole.pose)
+    whole = Rosbag2().read(path).tracks[0]
+    assert np.array_equal(Rosbag2().read(file).tracks[0].pose, whole.pose)
     (path / "metadata.yaml").unlink()
-    observed = FromRosbag2().read(path)
+    observed = Rosbag2().read(path)
     assert np.array_equal(observed.tracks[0].pose, whole.pose)
     assert "read without metadata.yaml" in observed.notes[0]
     (path / "metadata.yaml").write_text("rosbag2_bagfile_information: {version: [")
-    assert np.array_equal(FromRosbag2().read(path).tracks[0].pose, whole.pose)
+    assert np.array_equal(Rosbag2().read(path).tracks[0].pose, whole.pose)
 
 
 @pytest.mark.parametrize("part", [0.3, 0.8])
 def test_the_complete_part_of_a_truncated_mcap_is_read(foreign, part):
     path, file = filled(foreign, "mcap", step=0.005)
-    whole = FromRosbag2().read(path).tracks[0]
+    whole = Rosbag2().read(path).tracks[0]
     content = file.read_bytes()
     file.write_bytes(content[: int(len(content) * part)])
-    observed = FromRosbag2().read(path)
+    observed = Rosbag2().read(path)
     rows = len(observed.tracks[0].time)
     assert (part - 0.25) * len(whole.time) < rows <= part * len(whole.time)
     assert np.array_equal(observed.tracks[0].pose, whole.pose[:rows])
@@ -214,12 +214,12 @@ def test_the_complete_part_of_a_truncated_mcap_is_read(foreign, part):
 
 def test_the_readable_part_of_a_damaged_database_is_read(foreign):
     path, file = filled(foreign, "sqlite3")
-    whole = FromRosbag2().read(path).tracks[0]
+    whole = Rosbag2().read(path).tracks[0]
     content = bytearray(file.read_bytes())
     middle = len(content) // 2 // 4096 * 4096
     content[middle : middle + 40960] = b"\xff" * 40960
     file.write_bytes(content)
-    observed = FromRosbag2().read(path)
+    observed = Rosbag2().read(path)
     rows = len(observed.tracks[0].time)
     assert 0.3 * len(whole.time) < rows < 0.7 * len(whole.time)
     assert np.array_equal(observed.tracks[0].pose, whole.pose[:rows])
@@ -232,11 +232,11 @@ def test_files_that_are_no_bags_are_refused_in_one_line(tmp_path, content, suffi
     file = tmp_path / f"x{suffix}"
     file.write_bytes(content)
     with pytest.raises(InputError) as caught:
-        FromRosbag2().read(file)
+        Rosbag2().read(file)
     assert "\n" not in str(caught.value)
 
 
 def test_a_folder_without_a_bag_is_refused(tmp_path):
     for path in (tmp_path, tmp_path / "missing"):
         with pytest.raises(InputError, match="bag"):
-            FromRosbag2().read(path)
+            Rosbag2().read(path)

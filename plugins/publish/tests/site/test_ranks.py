@@ -5,9 +5,8 @@ from types import SimpleNamespace
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from mrpbench_core.report.estimation import ranks
-from mrpbench_core.report.estimation.ranks import rank_groups
+from mrpbench_publish.site import ranks
+from mrpbench_publish.site.ranks import rank_groups
 
 NAMES = ("a", "b", "c")
 
