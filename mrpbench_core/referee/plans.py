@@ -46,6 +46,11 @@ class Promises:
             k=int(planner.robustness) if Promise.ROBUST in kept else 0,
         )
 
+    @classmethod
+    def none(cls) -> Self:
+        """No promises, as of plans of which nothing else is known."""
+        return cls(kept=frozenset(), factor=1.0, assigns=False)
+
     def asked(self, problem: Problem) -> Problem:
         """The problem with the rules that the plan keeps."""
         return attrs.evolve(problem, rules=attrs.evolve(problem.rules, k=self.k))

@@ -5,6 +5,7 @@ study.yaml                    configuration of the latest invocation
 invocations/<id>.yaml         configuration, versions, machine and metric columns of each
 runs/<id>.jsonl               records, one file per invocation
 recordings/<run_id>.zip       exports/<run_id>/      logs/<run_id>.txt
+instances/<sha256>            worlds, roadmaps and scenarios of the recordings
 ```
 The files of attempt k above 1 are `recordings/<run_id>-<k>.zip` and `exports/<run_id>-<k>/`, so that the files of an
 attempt stay until the record of the next one is on disk.
@@ -26,7 +27,7 @@ from mrpbench_core.store.paths import RunPaths
 
 _ATTEMPTS = 100
 """Earlier attempts whose files are looked for."""
-PARTS = ("invocations", "runs", "recordings", "exports", "logs")
+PARTS = ("invocations", "runs", "instances", "recordings", "exports", "logs")
 
 
 @attrs.frozen
@@ -60,6 +61,11 @@ class ResultsFolder:
     def log(self, run_id: str) -> Path:
         """The log file of a run, with the output of its plugins."""
         return self.path / "logs" / f"{file_name(run_id)}.txt"
+
+    @property
+    def instances(self) -> Path:
+        """The instances of the runs; see `mrpbench_core.store.instances`."""
+        return self.path / "instances"
 
     def replay(self, *run_ids: str) -> Path:
         """The page with the replay of a run, or of several side by side."""
@@ -99,7 +105,11 @@ class ResultsFolder:
         Raises:
             OSError: one cannot be removed.
         """
-        unfinished = [*self.path.glob(".*.partial"), *self.path.glob("invocations/.*.partial")]
+        unfinished = [
+            *self.path.glob(".*.partial"),
+            *self.path.glob("invocations/.*.partial"),
+            *self.path.glob("instances/.*.partial"),
+        ]
         for part in ("recordings", "exports"):
             unfinished += (self.path / part).rglob(".*.partial")
         for partial in unfinished:

@@ -17,6 +17,8 @@ class Job:
     run_id: str
     parcel: dict[str, Any]
     """The configuration; see `mrpbench_core.config.unpacking`."""
+    keep: str
+    """Of which runs the recording is kept: `all`, `failed` or `none`."""
     facts: dict[str, Any]
     """See `mrpbench_core.engine.asking.facts_of_run`."""
     paths: RunPaths
@@ -31,7 +33,7 @@ class Job:
             "run_id": self.run_id,
             "parcel": self.parcel,
             "facts": self.facts,
-            "keep": self.parcel["config"]["recording"]["keep"],
+            "keep": self.keep,
             "recording": str(self.paths.recording),
             "exports": str(self.paths.exports),
             "picture": None if self.paths.picture is None else str(self.paths.picture),

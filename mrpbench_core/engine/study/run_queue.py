@@ -123,6 +123,7 @@ class RunQueue:
             run_id=point.run_id,
             parcel=point.parcel,
             facts=point.facts,
+            keep=point.canonical["recording"]["keep"],
             paths=self.folder.run(point.run_id, attempt),
             log=self.folder.log(point.run_id),
             wall_s=point.wall_s,

@@ -28,12 +28,14 @@ from mrpbench_core.files.robot import load_robot
 from mrpbench_core.files.scenario import read_scenario
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Mode
+from mrpbench_core.model.runs.arrivals import arrival_times
 from mrpbench_core.model.runs.routes import with_latest_routes
-from mrpbench_core.model.runs.run import FinishedRun, RunContext
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.plugins.checkout import version_of
 from mrpbench_core.plugins.provenance import provenance
 from mrpbench_core.referee.measuring import describe, measure
+from mrpbench_core.referee.plans import Promises, judge_plan
 from mrpbench_core.store.folder import ResultsFolder, new_invocation
 from mrpbench_core.store.invocation import write_document
 from mrpbench_core.store.lock import locked
@@ -78,6 +80,8 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
     found = _observe(analysis, observed)
     identity = _identity(analysis, found)
     first = attrs.evolve(found.context, run_id=identity)
+    if first.result.plan is not None:
+        first = attrs.evolve(first, result=judge_plan(Promises.none(), first.problem, first.result)[0])
     known = {name: rows for name, rows in found.channels.items() if not (found.gaps and name == "truth")}
     channels = {name: _loader(rows) for name, rows in known.items()}
     context = with_latest_routes(first, channels)
@@ -93,7 +97,7 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
     for lacking, why in (("no truth", found.gaps), ("no end", found.open_ends)):
         if why:
             reasons |= {name: "; ".join(why) for name, reason in reasons.items() if reason.startswith(lacking)}
-    status, message = _status(found, context)
+    status, message = _status(found, run)
     record = StoredRecord(
         run=RunRecord(
             run_id=identity,
@@ -164,10 +168,9 @@ def _unknown_end(found: ObservedRun) -> list[str]:
     return [f"how the run ended is unknown: {'; '.join(found.open_ends)}"] if found.open_ends else []
 
 
-def _status(found: ObservedRun, context: RunContext) -> tuple[RunStatus, str | None]:
+def _status(found: ObservedRun, run: FinishedRun) -> tuple[RunStatus, str | None]:
     """The status of the run, as far as the recording shows it, and the reason if it did not succeed."""
-    last = found.channels["reached"][-1]
-    arrived = last >= np.array([route.last_move for route in context.routes])
+    arrived = np.isfinite(arrival_times(run))
     if arrived.all():
         return RunStatus.SUCCEEDED, None
     mode = found.channels.get("mode")

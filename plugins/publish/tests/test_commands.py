@@ -11,7 +11,7 @@ def published(mrpbench):
     assert mrpbench("run", "tiny.yaml")[0] == 0
     code, output, errors = mrpbench("publish", "results/tiny", "--out", "tiny.zip", "--author", "Ada Lovelace")
     assert (code, errors) == (0, "")
-    assert "wrote tiny.zip: 2 runs, 0 recordings" in output
+    assert "wrote tiny.zip: 2 runs, 2 recordings" in output
     return output
 
 

@@ -31,7 +31,9 @@ def test_progress_is_that_of_the_execution_under_way(tmp_path, monkeypatch):
     child = Scripted(slot, {"progress": None}, {"progress": FACTS}, {"progress": None}, end)
     monkeypatch.setattr(slot, "_ready", lambda: child)
     paths = RunPaths(recording=tmp_path / "r", exports=tmp_path / "e", picture=None)
-    job = Job(run_id="r", parcel={}, paths=paths, log=Path("log"), wall_s=60.0, memory_bytes=2**30)
+    job = Job(
+        run_id="r", parcel={}, facts={}, keep="all", paths=paths, log=Path("log"), wall_s=60.0, memory_bytes=2**30
+    )
     assert slot.run(job).record.run_id == "r"
     assert child.seen == [None, None, {"run_id": "r", **FACTS}, None]
     assert slot.progress is None

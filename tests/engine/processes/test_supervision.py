@@ -135,7 +135,7 @@ class LateServer:
     def fileno(self):
         return 0
 
-    def fork(self, connection):
+    def fork(self, connection, instance):
         self.connection = connection.dup()
 
     def receive(self, timeout_s=None):

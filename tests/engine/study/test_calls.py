@@ -47,7 +47,9 @@ def judged(tmp_path):
     paths = ResultsFolder(tmp_path).run("ab")
     paths.recording.parent.mkdir()
     paths.recording.touch()
-    job = Job(run_id="ab", parcel={}, paths=paths, log=tmp_path / "log", wall_s=1.0, memory_bytes=1)
+    job = Job(
+        run_id="ab", parcel={}, facts={}, keep="all", paths=paths, log=tmp_path / "log", wall_s=1.0, memory_bytes=1
+    )
 
     def judge(returned):
         future = Future()

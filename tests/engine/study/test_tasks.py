@@ -29,7 +29,7 @@ STUDY = {
 
 
 def recordings(folder):
-    return {file.name: file.read_bytes() for file in folder.rglob("*.zip")}
+    return {file.name: file.read_bytes() for file in folder.rglob("recordings/*.zip")}
 
 
 def measured(records):

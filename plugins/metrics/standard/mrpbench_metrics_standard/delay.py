@@ -9,11 +9,11 @@ import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value
 from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.runs.arrivals import arrival_times
 from mrpbench_core.model.runs.plans import read_plans
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.model.runs.switches import switches
 from mrpbench_metrics_standard.distribution import mean, percentile
-from mrpbench_metrics_standard.progress import arrival_times
 from mrpbench_metrics_standard.samples import measurable, nulls
 
 
@@ -90,7 +90,7 @@ class Delay(Metric):
 def delays(run: FinishedRun) -> Float:
     """Delays f8[n] in seconds of the last planned move of each robot; NaN if it was never completed."""
     time = run.channel("time")
-    late: Float = arrival_times(time, run.channel("reached"), run.context.routes) - time[0] - _planned(run)
+    late: Float = arrival_times(run) - time[0] - _planned(run)
     return late
 
 

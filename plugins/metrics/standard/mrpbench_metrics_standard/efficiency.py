@@ -9,10 +9,10 @@ import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value
 from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.runs.arrivals import arrival_times
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.distribution import mean
 from mrpbench_metrics_standard.motion import steps
-from mrpbench_metrics_standard.progress import arrival_times
 from mrpbench_metrics_standard.samples import measurable, nulls
 from mrpbench_metrics_standard.shortest import shortest_lengths
 
@@ -68,7 +68,7 @@ class Efficiency(Metric):
         if not moving.any() or not np.isfinite(shortest).all():
             return nulls(self)
         planned = np.array([math.fsum(np.hypot(*np.diff(route.waypoint[:, :2], axis=0).T)) for route in context.routes])
-        arrival = arrival_times(time, run.channel("reached"), context.routes)
+        arrival = arrival_times(run)
         before = ~(time[1:, None] > arrival)  # steps that end at the arrival or sooner
         driven = np.array([math.fsum(own) for own in np.where(before, steps(run.channel("truth")), 0.0).T])
         arrived = moving & np.isfinite(arrival)

@@ -12,10 +12,11 @@ import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value, option
 from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.runs.arrivals import arrival_times
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.contacts import episodes
 from mrpbench_metrics_standard.original import COLUMNS, measure_as_original
-from mrpbench_metrics_standard.progress import arrival_times, blocked_times, progress, under_way
+from mrpbench_metrics_standard.progress import blocked_times, progress, under_way
 from mrpbench_metrics_standard.proximity import closest
 
 _POSITIVE = attrs.validators.gt(0)
@@ -169,7 +170,7 @@ class Execution(Metric):
         reached, routes = run.channel("reached"), run.context.routes
         values: dict[str, Value] = {}
         if not run.has("task_time"):
-            arrival = arrival_times(time, reached, routes)
+            arrival = arrival_times(run)
             complete = bool(np.isfinite(arrival).all())
             values["success"], values["goals_reached"] = complete, int(np.isfinite(arrival).sum())
             values["duration_s"] = float(arrival.max(initial=time[0]) - time[0]) if complete else None

@@ -6,17 +6,9 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.execution.route import Route
+from mrpbench_core.model.runs.arrivals import arrival_times
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.occupied import occupied
-
-
-def arrival_times(time: Float, reached: Int32, routes: Sequence[Route]) -> Float:
-    """Time f8[n] of the first sample at which each robot has completed the last move of its path; NaN = never.
-
-    Waits after the last move do not count, since every new plan adds some to the paths of robots that have arrived.
-    """
-    done = reached >= np.array([route.last_move for route in routes], int)
-    return np.where(done.any(axis=0), time[done.argmax(axis=0)], np.nan)
 
 
 def under_way(run: FinishedRun) -> Bool:
@@ -24,7 +16,7 @@ def under_way(run: FinishedRun) -> Bool:
     if run.has("task_time"):
         return occupied(run)
     time = run.channel("time")
-    return ~(time[:, None] >= arrival_times(time, run.channel("reached"), run.context.routes))  # true where NaN
+    return ~(time[:, None] >= arrival_times(run))  # true where NaN
 
 
 def moves_among(segments: Int32, routes: Sequence[Route]) -> Int:

@@ -7,9 +7,9 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value
+from mrpbench_core.model.runs.arrivals import arrival_times
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.distribution import mean, percentile
-from mrpbench_metrics_standard.progress import arrival_times
 from mrpbench_metrics_standard.samples import measurable, nulls
 
 
@@ -44,7 +44,7 @@ class Throughput(Metric):
         assigned = np.array(context.assigned or range(len(context.routes)), int)
         tasks = context.scenario.tasks
         released = np.array([tasks[task].release if task in range(len(tasks)) else np.nan for task in assigned])
-        served = arrival_times(time, run.channel("reached"), context.routes) - np.maximum(released, time[0])
+        served = arrival_times(run) - np.maximum(released, time[0])
         served = served[np.isfinite(served)]
         hours = float(time[-1] - time[0]) / 3600
         return {

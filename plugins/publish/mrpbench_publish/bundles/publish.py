@@ -11,7 +11,9 @@ import attrs
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.files.links import followed
 from mrpbench_core.files.text import counted
+from mrpbench_core.store.instances import InstanceFolder
 from mrpbench_core.store.invocation import dumps
+from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.results import Results
 from mrpbench_core.store.run_files import check_recording, digest
 from mrpbench_core.store.shards import read_shard
@@ -118,7 +120,13 @@ def publish(folders: Sequence[Results], out: Path, options: PublishOptions, slot
     notes = [f"{name} is a program; check that its licence lets you publish it" for name in sorted(inputs.programs)]
     notes += [f"{name} is left out; `mrpbench verify --inputs DIR` takes it from DIR" for name in inputs.left_out]
     notes += [str(error) for results in folders for error in results.damaged]
-    return Published(file=out, sha256=digest(out), runs=runs, recordings=len(recordings), notes=tuple(notes))
+    return Published(
+        file=out,
+        sha256=digest(out),
+        runs=runs,
+        recordings=sum("/recordings/" in name for name in recordings),
+        notes=tuple(notes),
+    )
 
 
 def _expected(
@@ -203,7 +211,7 @@ def _require_one_version(folders: Sequence[Results], expected: Sequence[Expected
 
 
 def _recordings(folders: Sequence[Results], share: float) -> dict[str, Path | bytes]:
-    """The recordings to include by name in the bundle."""
+    """The recordings to include by name in the bundle, and their instances."""
     kept: dict[str, tuple[Results, dict[str, Any]]] = {}
     for results in folders if share else ():
         for record in results:
@@ -217,6 +225,12 @@ def _recordings(folders: Sequence[Results], share: float) -> dict[str, Path | by
             raise InputError("is no longer there", file=file, hint="`--recordings none` publishes the records alone")
         check_recording(record, file)
         found[f"{RESULTS}/recordings/{file.name}"] = file
+        recording = Recording(file)
+        name = recording.instance_name
+        recording.close()
+        if name is not None:
+            parts = InstanceFolder(results.folder.instances).files_of(name)
+            found |= {f"{RESULTS}/instances/{part.name}": part for part in parts}
     return found
 
 

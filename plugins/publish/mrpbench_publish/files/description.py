@@ -93,18 +93,17 @@ class Description:
             version: of the bundle's software, mrpbench.
         """
         files = sorted(name.removeprefix(PAYLOAD) for name in payload)
-        recordings = [name for name in files if name.startswith("results/recordings/")]
-        listed = [name for name in files if name not in {*recordings, "ro-crate-metadata.json"}]
+        folders = {
+            f"results/{part}/": [name for name in files if name.startswith(f"results/{part}/")]
+            for part in ("instances", "recordings")
+        }
+        listed = [name for name in files if not any(map(name.startswith, folders)) and name != "ro-crate-metadata.json"]
         parts = [_file(name) for name in listed]
-        if recordings:
-            parts.append(
-                {
-                    "@id": "results/recordings/",
-                    "@type": "Dataset",
-                    "name": "recordings",
-                    "description": f"{len(recordings)} recordings of executions",
-                }
-            )
+        for folder, names in folders.items():
+            if names:
+                part = folder.split("/")[1]
+                what = "recordings of runs" if part == "recordings" else "files of instances"
+                parts.append({"@id": folder, "@type": "Dataset", "name": part, "description": f"{len(names)} {what}"})
         software = _software(invocations, version)
         actions = [
             _action(name, document, self.authors, [part["@id"] for part in parts])

@@ -5,7 +5,7 @@ bagit.txt, bag-info.txt, manifest-sha256.txt, tagmanifest-sha256.txt    BagIt 1.
 data/ro-crate-metadata.json       description of the data (RO-Crate 1.2, Process Run Crate)
 data/CITATION.cff                 how to cite them (Citation File Format 1.2.0)
 data/study.yaml                   configuration of the latest invocation
-data/results/                     a results folder: invocations/, runs/, recordings/
+data/results/                     a results folder: invocations/, runs/, recordings/, instances/
 data/inputs.json                  the folder of the configuration in inputs/, names of files that it gives in full,
                                   and the SHA-256 of files that are left out
 data/inputs/                      files that the configuration names, and local plugins
@@ -30,5 +30,6 @@ _INVOCATION = r"[0-9A-Za-z.-]+"
 ALLOWED = re.compile(
     rf"{CRATE}|{CITATION}|{STUDY}|{INPUTS}|{INPUT_FOLDER}/.+|{RESULTS}/invocations/{_INVOCATION}\.yaml"
     rf"|{RESULTS}/runs/{_INVOCATION}\.jsonl|{RESULTS}/recordings/[0-9A-Za-z_-]+\.zip"
+    rf"|{RESULTS}/instances/[0-9a-f]{{64}}\.(?:json|zip)"
 )
 """Names of the files that a payload may have."""

@@ -67,6 +67,9 @@ def reference_faults(bundle: Opened) -> Iterator[Fault | str]:
             yield name, "is a recording that no record names"
         elif digest(file) != named[name]:
             yield name, "is not the recording whose SHA-256 its record has"
+    for file in (folder.path / "instances").glob("*"):
+        if digest(file) != file.stem:
+            yield file.name, "is not the instance whose SHA-256 is its name"
     yield from _sample_faults(bundle, set(there), set(named))
 
 

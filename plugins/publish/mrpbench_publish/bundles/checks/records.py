@@ -77,7 +77,7 @@ def status_faults(stored: Stored, columns: Mapping[str, Any]) -> Iterator[str]:
             yield "was executed and has no time of the execution"
     elif metrics.keys() - columns.keys():
         yield "has metrics that its invocation does not declare"
-    if simulated and status in PLANNED and (fault := _recording_fault(stored, status)):
+    if status in PLANNED and (fault := _recording_fault(stored, status)):
         yield fault
     claims = record.get("plan") or {}
     if claims and claims.get("unsolvable", False) != (status == RunStatus.PLAN_UNSOLVABLE):
