@@ -20,6 +20,8 @@ PYTHONS = ("3.11", "3.12", "3.13")
 STUDY = (
     ("init", "first"),
     ("run", "first.yaml", "simulator=planar", "controller=dwb"),
+    ("publish", "results/first", "--out", "first.zip"),
+    ("verify", "first.zip"),
     ("report", "results/first"),
 )
 

@@ -2,6 +2,7 @@
 
 import subprocess
 import sys
+from importlib import metadata
 
 import pytest
 
@@ -93,6 +94,15 @@ def test_no_distribution_replaces_a_command_of_the_core(mrpbench, install):
     assert main.COMMANDS["plugins"] in output
     assert "greet a robot" not in output
     assert "\ncommand 'plugins' of thief 1.0 is not used: mrpbench-core has a command of this name\n" in output
+
+
+@pytest.mark.parametrize("name", ["publish", "verify", "site", "analyze"])
+def test_a_command_of_a_distribution_that_is_not_installed_names_it(mrpbench, monkeypatch, name):
+    monkeypatch.setattr(metadata, "entry_points", lambda **_: ())
+    owner = "mrpbench-analysis" if name == "analyze" else "mrpbench-publish"
+    said = f"no command is called {name!r} ({owner} has it: `pip install mrpbench`)\n"
+    assert mrpbench(name, "x") == (2, "", said)
+    assert f"\n  {name} " not in mrpbench("--help")[1]
 
 
 def test_help_and_the_module_of_commands_do_not_import_numpy():

@@ -5,6 +5,8 @@ import pytest
 from mrpbench_core.api import KINDS, ReadableFormat, WritableFormat
 from mrpbench_core.cli.input.plugin_name import resolve
 from mrpbench_core.cli.main import main
+from mrpbench_core.config.items import Location, from_data
+from mrpbench_core.config.structure import structure_component
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.installed import installed
 from mrpbench_core.plugins.registry import Registry
@@ -106,6 +108,12 @@ def test_kinds_of_earlier_releases_give_one_line_of_advice(caplog, capsys):
         ADVICE.format("exporters"),
         ADVICE.format("importers"),
     ]
+
+
+@pytest.mark.usefixtures("old")
+def test_a_command_that_uses_a_format_of_an_earlier_release_says_so_once(caplog, tmp_path):
+    structure_component(WritableFormat, from_data("poses", Location()), "--to", tmp_path)
+    assert caplog.messages == [ADVICE.format("exporters")]
 
 
 def test_a_distribution_with_names_of_both_releases_offers_one_format(install):
