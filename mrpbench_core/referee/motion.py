@@ -99,10 +99,14 @@ def _speeds(time: Float, truth: Float, pushed: Bool, fleet: Fleet, excess: float
         ("turns", turned, np.array([robot.max_turn_rate for robot in models]), TURN),
     ):
         total = np.cumsum(np.vstack([np.zeros(len(models)), way]), axis=0)
-        far = (total[steps:] - total[:-steps] > excess * limit * spans + always) & ~pushed[steps:]
-        if far.any():
-            sample, robot = np.argwhere(far)[0]
-            yield f"{fleet.names[robot]} {what} at {time[sample + steps]:g} s faster than its limits allow"
+        far = total[steps:] - total[:-steps] > excess * limit * spans + always
+        excused = np.zeros(len(models), bool)
+        for sample in np.flatnonzero(far.any(axis=1)).tolist():
+            excused = (pushed[sample + steps] | excused & far[sample - 1]) & far[sample]  # it takes time to slow down
+            if (far[sample] & ~excused).any():
+                robot = int((far[sample] & ~excused).argmax())
+                yield f"{fleet.names[robot]} {what} at {time[sample + steps]:g} s faster than its limits allow"
+                return
 
 
 def _walls(world: World, names: tuple[str, ...], time: Float, place: Float, level: Int16) -> Iterator[str]:

@@ -105,6 +105,7 @@ def test_a_robot_that_makes_way_after_its_arrival_arrives_when_it_is_back():
     recorded["reached"][:, 0] = np.repeat([0, 1, 2, 3, 4], [10, 5, 5, 10, 11])
     recorded |= route_channels([(1.0, (away, *first.routes[1:]))])
     recorded["reached"][:, 1:] = 2
+    del recorded["mode"]  # of other fleets: where robots are at the end does not count
     run = executed(first, recorded)
     for end, expected in ((SAMPLES, 3.0), (SAMPLES - 11, None)):
         cut = {name: load()[:end] if len(load()) == SAMPLES else load() for name, load in run.channels.items()}
