@@ -74,9 +74,10 @@ class Nav2Block:
         start = f"{name}."
         return {key.removeprefix(start): value for key, value in self._values.items() if key.startswith(start)}
 
-    def blocks(self) -> tuple[str, ...]:
-        """Return the names of the blocks in it."""
-        return tuple(dict.fromkeys(name.partition(".")[0] for name in self._values if "." in name))
+    def blocks(self, *, shared: bool = False) -> tuple[str, ...]:
+        """Return the names of the blocks in it, or of those that no node has by its name."""
+        names = [name for name, value in self._values.items() if "." in name and (value.shared or not shared)]
+        return tuple(dict.fromkeys(name.partition(".")[0] for name in names))
 
     def rename(self, names: Mapping[str, str]) -> None:
         """Give parameters that other releases of Nav2 call otherwise the names of here, unless both are given."""
@@ -92,6 +93,8 @@ class Nav2Block:
         """
         self._taken.add(name)
         if name not in self._values:
+            if below := self._below(name):
+                raise self.error(f"expected {_WORDS[kind]}, got a block", f"{name}.{next(iter(below))}")
             return default
         value = self._values[name].value
         if kind is float and isinstance(value, int) and not isinstance(value, bool):

@@ -26,6 +26,9 @@ def controller_block(server: Nav2Block, plugin: str, controller_id: str | None) 
             f"there is no controller {controller_id!r}", "controller_plugins", hint=f"it lists {', '.join(listed)}"
         )
     ids = [name for name in listed if name in server.blocks() and controller_id in (None, name)]
+    if not ids and controller_id is None:  # a block for any node (`/**`) may also be for this one
+        named = [name for name in server.blocks(shared=True) if f"{name}.plugin" in server]
+        ids = [name for name in named if plugin in _plugins(server, name, listed)]
     if not ids:
         blocks = ", ".join(server.blocks()) or "none"
         message = f"no parameters of {' or '.join(listed)}, which it lists"
@@ -42,9 +45,10 @@ def controller_block(server: Nav2Block, plugin: str, controller_id: str | None) 
 def primary_block(block: Nav2Block) -> Nav2Block:
     """Return the parameters of the controller in the block of a rotation shim; since lyrical they have a block."""
     plugin = _name(block.take("plugin", str, ""))
-    if plugin == SHIM:
-        block.ignore(*OF_SHIM)
-    if plugin != SHIM or "primary_controller.plugin" not in block:
+    if plugin != SHIM:
+        return block
+    block.ignore(*OF_SHIM)
+    if "primary_controller" in block:
         block.take("primary_controller", str)
         return block
     primary = block.within("primary_controller")
@@ -52,11 +56,14 @@ def primary_block(block: Nav2Block) -> Nav2Block:
     return primary
 
 
-def shim_note(block: Nav2Block) -> tuple[str, ...]:
-    """Return the note that the shim of a block is not used, if it is one."""
-    if _name(block.take("plugin", str, "")) != SHIM or block.document is None:
-        return ()
-    return (f"{block.document.file}: {block.title}: {NOT_HERE}",)
+def controller_notes(server: Nav2Block, block: Nav2Block) -> tuple[str, ...]:
+    """Return the notes that the file does not list a block, and that it is one of a shim, which is not used."""
+    listed, own = plugin_ids(server, "controller"), block.title.rpartition(".")[2]
+    notes = [] if own in listed else [f"controller_plugins lists {', '.join(listed)}, but only {own} has parameters"]
+    if _name(block.take("plugin", str, "")) == SHIM:
+        notes.append(NOT_HERE)
+    place = f"{block.document.file}: " if block.document else ""
+    return tuple(f"{place}{block.title}: {note}" for note in notes)
 
 
 def _plugins(server: Nav2Block, name: str, listed: tuple[str, ...]) -> tuple[str, ...]:

@@ -150,15 +150,14 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
         return polygon
 
 
-def ignored_filters(file: Nav2File, namespace: str) -> tuple[str, ...]:
-    """Return a note on the filters of the costmaps in a Nav2 file, if it has any."""
-    found: dict[str, None] = {}
-    for node in ("local_costmap", "global_costmap"):
-        block = file.node(node, namespace)
-        found |= dict.fromkeys(block.take_names("filters") if block else ())
-    if not found:
-        return ()
-    return (f"{file.document.file}: filters of costmaps are ignored, their masks are not read: {', '.join(found)}",)
+def costmap_notes(file: Nav2File, namespace: str) -> tuple[str, ...]:
+    """Return the notes that filters of the costmaps are ignored, and that the file has no local costmap."""
+    blocks = [file.node(name, namespace) for name in ("local_costmap", "global_costmap") if name in file.nodes]
+    filters = dict.fromkeys(name for block in blocks if block is not None for name in block.take_names("filters"))
+    notes = [f"filters of costmaps are ignored, their masks are not read: {', '.join(filters)}"] if filters else []
+    if "local_costmap" not in file.nodes:
+        notes.append(f"no parameters of the node 'local_costmap', so the defaults hold: {', '.join(file.nodes)}")
+    return tuple(f"{file.document.file}: {note}" for note in notes)
 
 
 _LAYERS: dict[str, Layer] = {

@@ -9,8 +9,8 @@ import attrs
 import numpy as np
 from mrpbench_native.local import controller_options, robot_options
 
-from mrpbench_controllers_local.controller_block import controller_block, primary_block, shim_note
-from mrpbench_controllers_local.costmap import LocalCostmap, Polygon, ignored_filters
+from mrpbench_controllers_local.controller_block import controller_block, controller_notes, primary_block
+from mrpbench_controllers_local.costmap import LocalCostmap, Polygon, costmap_notes
 from mrpbench_controllers_local.critics import Critic, NativeCritic
 from mrpbench_controllers_local.nav2_names import OF_CONTROLLERS, OF_PATH_HANDLERS
 from mrpbench_controllers_local.settings import RobotSettings, lidar_values
@@ -150,10 +150,15 @@ class LocalController(Controller):
             return self._of_blocks(robot, pasted, None), not_used(pasted)
 
         def read(namespace: str) -> tuple[_Read, tuple[str, ...]]:
-            server, costmap = controller_server(file, namespace), file.node("local_costmap", namespace)
+            server = controller_server(file, namespace)
+            costmap = file.node("local_costmap", namespace) if "local_costmap" in file.nodes else None
             found = self._of_blocks(robot, server, costmap)
-            shim = shim_note(controller_block(server, self.nav2_plugin, self.controller_id))
-            return found, (*shim, *not_used(server, costmap), *ignored_filters(file, namespace))
+            block = controller_block(server, self.nav2_plugin, self.controller_id)
+            return found, (
+                *controller_notes(server, block),
+                *not_used(server, costmap),
+                *costmap_notes(file, namespace),
+            )
 
         return file.read("controller_server", self.namespace, read)
 
