@@ -20,7 +20,7 @@ PLUGINS = {
 _OF_SERVER = (
     *("controller_frequency", "min_x_velocity_threshold", "min_y_velocity_threshold", "min_theta_velocity_threshold"),
     *("speed_limit_topic", "odom_topic", "odom_duration", "enable_stamped_cmd_vel", "publish_zero_velocity"),
-    *("use_realtime_priority", "costmap_update_timeout", "transform_tolerance", "search_window"),
+    *("use_realtime_priority", "costmap_update_timeout", "transform_tolerance"),
 )
 """Parameters of Nav2's controller server that have no effect here."""
 

@@ -1,6 +1,5 @@
 """Options of the rolling costmap, by the names and defaults of Nav2's local costmap."""
 
-import json
 from typing import Any, Literal, get_args
 
 import attrs
@@ -11,6 +10,8 @@ from mrpbench_native.local import robot_options
 from mrpbench_controllers_local.nav2_names import OF_COSTMAPS, OF_LAYERS, OF_SOURCES, OLDER_RANGES
 from mrpbench_core.api.described import DescribedOption, described
 from mrpbench_core.api.nav2 import as_parameter, parameter, settle
+from mrpbench_core.files import yaml
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.nav2 import OF_EVERY_NODE, Nav2Block
 from mrpbench_core.files.nav2_file import Nav2File
 from mrpbench_core.model.common.arrays import Float
@@ -139,11 +140,11 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
         if self.footprint is not None:
             return robot.footprint if self.footprint == "robot" else np.array(self.footprint, float)
         text = None if block is None else block.take("footprint", str)
-        if not text or block is None or self.robot_radius is not None:
+        if not text or text.split() in ([], ["[]"]) or block is None or self.robot_radius is not None:
             return None
         try:
-            polygon = np.array(json.loads(text), float)
-        except (ValueError, TypeError, RecursionError, OverflowError):
+            polygon = np.array(yaml.loads(text).data, float)
+        except (InputError, ValueError, TypeError, OverflowError):
             polygon = np.empty(0)
         if polygon.ndim != 2 or polygon.shape[1] != 2 or len(polygon) < 3 or not np.isfinite(polygon).all():
             raise block.error("must be a string with a list of at least three points [x, y]", "footprint")

@@ -23,7 +23,7 @@ OF_CONTROLLERS = (
     # regulated pure pursuit
     *("use_cancel_deceleration", "cancel_deceleration", "use_interpolation", "min_distance_to_obstacle"),
     *("allow_obstacle_checking_beyond_goal", "goal_dist_tol", "max_allowed_time_to_collision", "desired_linear_vel"),
-    *("max_linear_accel", "max_linear_decel"),
+    *("use_approach_linear_velocity_scaling", "use_approach_vel_scaling"),
     # graceful
     *("min_lookahead", "lambda", "motion_target_dist", "initial_rotation_min_angle", "final_rotation"),
     *(*OF_SHIM, "primary_controller"),

@@ -11,7 +11,7 @@ from mrpbench_localizers_amcl import Amcl
 
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.config.study import load_study
-from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.testing.fixtures.room import PERIOD, room
 from mrpbench_core.testing.suites.controller import STRAIGHT, drive
@@ -138,73 +138,6 @@ def test_what_has_no_effect_is_told_once_by_a_study(write):
     ]
 
 
-COSTMAP = """\
-controller_server: {ros__parameters: {FollowPath: {plugin: "dwb_core::DWBLocalPlanner"}}}
-local_costmap: {local_costmap: {ros__parameters: {%s}}}
-"""
-
-
-@pytest.mark.parametrize(
-    ("text", "name", "value"),
-    [
-        ("width: 2, plugins: [x], x: {plugin: 'nav2_costmap_2d::InflationLayer', inflation_radius: 0.2}", "width", 2.0),
-        (
-            "plugins: [x], x: {plugin: 'nav2_costmap_2d::InflationLayer', inflation_radius: 0.2}",
-            "inflation_radius",
-            0.2,
-        ),
-        ("plugins: [x], x.plugin: 'nav2_costmap_2d::InflationLayer', x.inflation_radius: 0.2", "inflation_radius", 0.2),
-        ("inflation_layer: {inflation_radius: 0.2}", "inflation_radius", 0.2),
-        (
-            "plugin_names: [inflation_layer], plugin_types: [a], inflation_layer.inflation_radius: 0.2",
-            "inflation_radius",
-            0.2,
-        ),
-        ("plugins: [inflation_layer], inflation_layer: {enabled: false, typo: 1}", "inflation_layer", False),
-        ("plugins: [a], a: {plugin: 'spatio_temporal_voxel_layer/Stvl', enabled: false}", "obstacle_layer", False),
-        ("plugins: [inflation_layer], stvl_layer: {plugin: 'x/Stvl', typo: 1}", "inflation_layer", True),
-        (
-            "plugins: [voxel_layer], voxel_layer: {observation_sources: s, s: {obstacle_range: 1.5}}",
-            "obstacle_max_range",
-            1.5,
-        ),
-        (
-            "plugins: [v], v: {plugin: VoxelLayer, observation_sources: a b, a.data_type: Other, b.marking: false}",
-            *("marking", False),
-        ),
-        ("filters: [''], plugins: [inflation_layer]", "inflation_layer", True),
-    ],
-)
-def test_layers_of_a_costmap_are_found_by_the_ids_that_a_file_lists(write, text, name, value):
-    assert values(Dwb(nav2=write(COSTMAP % text)))[name] == value
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        (
-            "plugins: [a], a: {plugin: 'spatio_temporal_voxel_layer/Stvl'}",
-            r"a: plugin: 'Stvl' is not an .*layer \(layers",
-        ),
-        ("plugins: [inflation_layer], inflation_layer: {inflaton_radius: 1}", r"'inflaton_radius' \(did you mean"),
-        ("plugins: {a: 1}", "plugins.a: expected a list, got a block"),
-        ("plugins: [{name: a}]", "expected a list of names"),
-        ("footprint: [[0.1, 0.1], [0.1, -0.1], [-0.1, 0.1]]", "footprint: expected text"),
-        ("widht: 3", r"'widht' \(did you mean 'width'"),
-    ],
-)
-def test_a_mistake_in_a_costmap_is_one_line_with_its_place(write, text, message):
-    with pytest.raises(InputError, match=message):
-        Dwb(nav2=write(COSTMAP % text))
-
-
-def test_filters_of_costmaps_are_told_to_be_ignored(write):
-    keepout = "filters: [keepout], keepout: {plugin: 'nav2_costmap_2d::KeepoutFilter', enabled: KEEPOUT_ENABLED}"
-    other = "\nglobal_costmap: {global_costmap: {ros__parameters: {filters: [speed], speed: {}}}}"
-    (note,) = Dwb(nav2=write(COSTMAP % keepout + other)).notes()
-    assert note.endswith("filters of costmaps are ignored, their masks are not read: keepout, speed")
-
-
 def follow(text):
     return server(f"FollowPath: {{{text}}}")
 
@@ -298,63 +231,6 @@ def test_a_shim_and_its_controller_read_one_file(write, primary):
     assert not any("the shim" in note for note in shim_notes)
     with pytest.raises(InputError, match=r"RegulatedPure\w+ is not nav2_rotation_shim"):
         RotationShim(nav2=write(follow(f"plugin: '{RPP}'")), primary_controller=Rpp())
-
-
-RUN = {"world": {"plugin": "bottlenecks", "case": "corridor"}, "scenario": {"plugin": "random", "robots": 1}}
-RUN |= {"planner": "astar", "simulator": "kinematic"}
-
-
-@pytest.mark.parametrize(
-    ("folder", "file", "plugin", "message"),
-    [
-        ("03-nav2-main-default-motion-model", "nav2.yaml", "mppi", None),
-        ("04-nav2-other-controller-id", "v02.yaml", "dwb", None),
-        ("04-nav2-other-controller-id", "v08.yaml", "rpp", None),
-        ("04-nav2-other-controller-id", "v08.yaml", "mppi", None),
-        ("06-nav2-two-robots-one-file", "v15.yaml", "dwb", "in the namespaces robot1, robot2"),
-        ("16-two-verdicts-in-one-record", "humble_multirobot_1.yaml", "dwb", None),
-    ],
-)
-def test_files_that_failed(shared_data, folder, file, plugin, message):
-    path = shared_data / "cases" / folder / file
-    if not path.is_file():
-        pytest.skip(f"there is no {path}")
-    settings = RUN | {"controller": {"plugin": plugin, "nav2": str(path)}}
-    if message is None:
-        assert load_study(settings).runs
-    else:
-        with pytest.raises(InputErrors, match=message):
-            load_study(settings)
-        chosen = settings["controller"] | {"namespace": "robot2"}
-        (run,) = load_study(settings | {"controller": chosen}).runs
-        assert values(run.config.controller)["max_vel_x"] == 0.2
-
-
-def test_a_slow_controller_is_slow_wherever_the_file_has_it(shared_data):
-    folder = shared_data / "cases" / "15-nav2-block-not-found"
-    if not folder.is_dir():
-        pytest.skip(f"there is no {folder}")
-    slow = [
-        Dwb(nav2=folder / f"slow_{name}.yaml").settings(BURGER, 0.05) for name in ("followpath", "myctl", "wildcard")
-    ]
-    assert slow[0].values["max_vel_x"] == 0.08
-    assert "lists MyCtl, but only FollowPath has parameters" in Dwb(nav2=folder / "slow_wildcard.yaml").notes()[0]
-    assert all((one.values, one.critics) == (slow[0].values, slow[0].critics) for one in slow)
-
-
-@pytest.mark.parametrize("release", ["humble", "kilted", "lyrical", "main"])
-def test_nav2s_own_files_load_as_they_are(shared_data, release):
-    file = shared_data / "nav2" / f"official_{release}.yaml"
-    if not file.is_file():
-        pytest.skip(f"there is no {file}")
-    controller = Dwb(nav2=file) if release == "humble" else Mppi(nav2=file)
-    found = values(controller)
-    assert found["inflation_radius"] == (0.55 if release == "humble" else 0.7)
-    assert release == "humble" or (found["batch_size"], len(controller.settings(BURGER, 0.05).critics)) == (2000, 8)
-    filters = [note for note in controller.notes() if "filters of costmaps are ignored" in note]
-    assert len(filters) == (release != "humble")
-    assert Waypoints(nav2=file).settled()["goal_checker"] == "SimpleGoalChecker"
-    assert Amcl(nav2=file).notes()
 
 
 NESTED = """\
