@@ -43,7 +43,7 @@ def raster_map(folder, seed):
         grey[rows, columns] = 0
     (folder / "map.pgm").write_text(f"P2\n300 240\n255\n{' '.join(map(str, grey.ravel()))}\n")
     (folder / "map.yaml").write_text(
-        "image: map.pgm\nresolution: 0.05\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n"
+        "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n"
     )
     return str(folder / "map.yaml")
 
