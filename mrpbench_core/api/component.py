@@ -91,6 +91,10 @@ class Component(ABC):
         """
         return {}
 
+    def notes(self) -> tuple[str, ...]:
+        """Return what the user should know of the files of its options before the runs, one line each."""
+        return ()
+
     def reads(self) -> tuple[Path, ...]:
         """Return files that the component reads besides those of its options, e.g. because one of these names them.
 

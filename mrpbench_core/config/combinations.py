@@ -82,6 +82,7 @@ class IdleOptions:
 
     def __init__(self) -> None:
         self._idle: dict[str, str] = {}
+        self._of_components: dict[str, None] = {}
         self._effective: set[str] = set()
         self._shared = Shared()
 
@@ -97,8 +98,9 @@ class IdleOptions:
                 self._idle.setdefault(key, str(place.location.error(key, reason)))
 
     def notes(self) -> tuple[str, ...]:
-        """One line for each option."""
-        return tuple(line for key, line in self._idle.items() if key not in self._effective)
+        """One line for each option, and the notes of components."""
+        idle = (line for key, line in self._idle.items() if key not in self._effective)
+        return (*idle, *self._of_components)
 
     def _of_run(self, config: RunConfig, root: Item) -> dict[str, str]:
         """Return the reason for each setting without effect in a run, whether the file names it or not."""
@@ -114,6 +116,7 @@ class IdleOptions:
                 if isinstance(component, Component):
                     block = f"{key}.{number}" if isinstance(item.value, list) else key
                     idle = self._shared(_idle_options, component)
+                    self._of_components |= dict.fromkeys(self._shared(_notes, component))
                     found |= {f"{block}.{name}": IDLE + reason for name, reason in idle.items()}
         if all(entry.graph is None or not _is(config.roadmap, "graph") for entry in config.fleet):
             found |= {
@@ -126,6 +129,10 @@ class IdleOptions:
 
 def _idle_options(component: Component) -> Mapping[str, str]:
     return component.idle_options()
+
+
+def _notes(component: Component) -> tuple[str, ...]:
+    return component.notes()
 
 
 def _of_planning_only(config: RunConfig) -> Iterator[tuple[str, str]]:
