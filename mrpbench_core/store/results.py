@@ -190,9 +190,9 @@ def load(folder: Path | str) -> Results:
     """The results in a folder.
 
     Raises:
-        InputError: it is no results folder.
+        InputError: it is not a results folder.
     """
     results = ResultsFolder(Path(folder))
     if not (results.path / "runs").is_dir():
-        raise InputError("is no results folder", file=folder, hint="give the folder that `mrpbench run` wrote")
+        raise InputError("is not a results folder", file=folder, hint="give the folder that `mrpbench run` wrote")
     return Results(results, warn=True)

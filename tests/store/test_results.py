@@ -151,7 +151,7 @@ def test_rows_are_flat(folder):
 
 
 def test_a_folder_of_something_else_is_refused(tmp_path):
-    with pytest.raises(InputError, match="is no results folder"):
+    with pytest.raises(InputError, match="is not a results folder"):
         load(tmp_path)
     (tmp_path / "thesis.tex").write_text("precious")
     with pytest.raises(InputError, match="is not empty"):
