@@ -83,13 +83,14 @@ def _first(ranking: Ranking, first: Place, others: Sequence[Place]) -> list[str]
         more = [f"Differences of up to {possible} remain possible."] if possible else []
         if all(place.estimate == first.estimate for place in others):
             return [f"All {len(everyone)} have {quantity(ranking, first.estimate)}.", *more]
-        return [f"The data do not tell {listed(everyone)} apart: {span(ranking)}.", *more]
+        return [f"There is no clear difference between {listed(everyone)}: {span(ranking)}.", *more]
     told = [f"{first.name} has the best mean: {quantity(ranking, first.estimate)}."]
     if alike:
         told.append(f"{listed(alike)} {'does' if len(alike) == 1 else 'do'} not differ noticeably from it.")
-    for kind, link in ((Relation.OPEN, "from"), (Relation.NOT_COMPARED, "with")):
-        found = [place.name for place in unknown if place.relation is kind]
-        told += [f"{listed(found)} {_is_or_are(found)} {kind.value} {link} it."] if found else []
+    if found := [place.name for place in unknown if place.relation is Relation.OPEN]:
+        told.append(f"There is no clear difference to {listed(found)}.")
+    if found := [place.name for place in unknown if place.relation is Relation.NOT_COMPARED]:
+        told.append(f"{listed(found)} {_is_or_are(found)} not compared with it.")
     return told
 
 

@@ -25,7 +25,7 @@ class Relation(StrEnum):
     """The column declares no threshold, so nothing says whether it matters."""
     SAME = "practically the same"
     """Not significant, and the interval excludes every difference that matters."""
-    OPEN = "not told apart"
+    OPEN = "no clear difference"
     """Not significant, and the interval allows differences that matter, or there is none."""
     NOT_COMPARED = "not compared"
     """They differ in several choices, or share no unit."""

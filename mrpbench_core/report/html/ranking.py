@@ -18,7 +18,7 @@ _TAGS = {
     Relation.SLIGHT: ("same", "too small to matter"),
     Relation.UNRATED: ("open", "differs; no threshold"),
     Relation.SAME: ("same", "practically the same"),
-    Relation.OPEN: ("open", "not told apart"),
+    Relation.OPEN: ("open", "no clear difference"),
     Relation.NOT_COMPARED: ("open", "not compared"),
 }
 

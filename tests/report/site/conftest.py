@@ -33,7 +33,7 @@ def entry(number, *, findings=(), replays=()):
 
 @pytest.fixture(scope="package")
 def boards(written, record, tmp_path_factory):
-    """Return the boards of two planners that differ and one that cannot be told apart from the first."""
+    """Return the boards of two planners that differ and one that does not clearly differ from the first."""
     records = [
         record(planner, seed, "succeeded", cost=20.0 + seed + more, took=0.01 * (seed + 1) * (1 + more))
         for planner, more in (("cbs", 0.0), ("pbs", 0.0), ("<b>bad</b>", 5.0))
