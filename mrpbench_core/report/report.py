@@ -48,7 +48,7 @@ class Report:
     """None without SciPy, which does the tests."""
 
     def tables(self, brief: bool = False) -> list[Table]:
-        """Return the tables; `brief` counts the comparisons that cannot be significant instead of showing them."""
+        """Return the tables; `brief` leaves out comparisons that cannot be significant, and empty tables."""
         means = means_table(self.settings, self.numbers, self.columns, self.runs) if self.columns else None
         common = common_table(self.settings, self.numbers, self.columns, self.runs)
         if has("scipy"):
@@ -62,7 +62,7 @@ class Report:
             common,
             pairs,
         )
-        return [table for table in found if table is not None]
+        return [table for table in found if table is not None and (table.rows or table is UNTESTED or not brief)]
 
     def failures_first(self) -> Int:
         """Return the indices of all runs: failed ones first, and every configuration in turn."""
