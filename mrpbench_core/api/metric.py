@@ -47,7 +47,7 @@ class Column:
     better."""
     answers: Question | None = None
     """The question at the beginning of a report that it helps to answer: how much gets done, how long does a task take,
-    how many tasks are open, do robots arrive, how long does it take, what does planning cost, how near do robots come?
+    how many tasks are open, do robots arrive, how long do they take, how long does planning take, how near do they get?
     None = a question of its own, if it is shown."""
     threshold: float | None = None
     """Smallest difference of two means, in `unit`, that matters in practice (smallest effect size of interest;

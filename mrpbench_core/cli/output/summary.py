@@ -14,6 +14,7 @@ from mrpbench_core.report.estimation.groups import RunGroup, group_runs
 from mrpbench_core.report.reading.axes import word
 from mrpbench_core.report.reading.columns import primary_columns, read_columns
 from mrpbench_core.report.reading.runs import PAR2, Runs, read_runs
+from mrpbench_core.report.tables.table import exact
 from mrpbench_core.store.results import Results
 
 ABREAST = 4
@@ -78,4 +79,4 @@ def _mean(runs: Runs, found: RunGroup, key: str) -> str | None:
     having = values[np.isfinite(values)]
     if not len(having):
         return None
-    return f"{having.mean():.4g}" + ("" if len(having) == len(found.members) else f" (n={len(having)})")
+    return f"{exact(having.mean()):.4g}" + ("" if len(having) == len(found.members) else f" (n={len(having)})")

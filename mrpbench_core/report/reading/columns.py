@@ -24,7 +24,10 @@ Columns = Mapping[str, Column]
 
 _OUTCOME = partial(Column, unit="", better="higher", answers="arrival", threshold=0.05)
 OUTCOME = (
-    _OUTCOME("succeeded", description="share of the runs that planned and arrived, of all that count"),
+    _OUTCOME(
+        "succeeded",
+        description="share of the runs that planned and arrived, or did tasks until the end, of all that count",
+    ),
     _OUTCOME(
         "planned",
         description="share of the runs whose planner found a plan that keeps its promises",
