@@ -63,6 +63,8 @@ class Metric(Component):
     """Measures a finished run from its plan and recording."""
 
     group: ClassVar[str] = "mrpbench.metrics"
+    reserved: ClassVar[frozenset[str]] = frozenset({"analysis", "config", "error", "plan", "provenance", "timing"})
+    """The parts of a record, with which the columns of a metric of that name would be mistaken."""
     columns: ClassVar[tuple[Column, ...]]
     requires: ClassVar[frozenset[str]] = frozenset()
     """Channels of the recording, `plan`, and `path` (the paths that robots were to follow are known). Where one is

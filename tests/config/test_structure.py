@@ -174,6 +174,18 @@ def test_metrics_and_exporters_are_kept_by_name(study, errors):
     assert "metrics.1: 'planning' is listed twice" in errors(BASE + "metrics: [planning, planning]")[0]
 
 
+def test_a_metric_is_not_called_like_a_part_of_records(errors, tmp_path):
+    (tmp_path / "mine.py").write_text(
+        "import attrs\nfrom mrpbench_core.api import Column, Metric\n"
+        "@attrs.frozen(kw_only=True)\nclass timing(Metric):\n"
+        "    columns = (Column('planning_s', 's', 'lower', 'mine'),)\n"
+        "    def measure(self, run): return {'planning_s': 1.0}\n"
+    )
+    assert errors(BASE + "metrics: [planning, ./mine.py:timing]") == [
+        "some.yaml:4:21: metrics.1: a metric cannot be called 'timing': records have a part of that name"
+    ]
+
+
 def test_files_are_relative_to_the_configuration_and_must_exist(study, errors, tmp_path, monkeypatch):
     (tmp_path / "maps").mkdir()
     (tmp_path / "maps" / "a.yaml").write_text("x")
