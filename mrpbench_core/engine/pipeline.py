@@ -142,7 +142,7 @@ def _plan(inputs: RunInputs, problem: Problem, record: RunRecord) -> tuple[PlanR
             RunStatus.PLAN_INVALID, Stage.PLANNING, f"{fault} ({title(config.planner)})"
         )
     if result.plan is None:
-        return result, RunEnded(STATUS[result.status], Stage.PLANNING, _unsolved(config, result, timing))
+        return result, RunEnded(STATUS[result.status], Stage.PLANNING, _unsolved(config, problem, result, timing))
     return result, None
 
 
@@ -169,10 +169,25 @@ def _stand(inputs: RunInputs, problem: Problem, record: RunRecord, places: Int |
     return result
 
 
-def _unsolved(config: RunConfig, result: PlanResult, timing: Mapping[str, Any]) -> str:
+_BLAMES = {
+    PlanStatus.GAVE_UP: "gave up: it last found no path for",
+    PlanStatus.UNSOLVABLE: "proved that there is no plan, because of",
+}
+"""How a planner ended that names a robot."""
+
+
+def _unsolved(config: RunConfig, problem: Problem, result: PlanResult, timing: Mapping[str, Any]) -> str:
     """Why there is no plan."""
     if result.status == PlanStatus.TIMEOUT and timing["planning_s"] > config.limits.planning + LATE_S:
         return f"returned after {timing['planning_s']:.3f} s; the limit is {config.limits.planning:g} s"
+    if result.status == PlanStatus.OUT_OF_MEMORY:
+        held, allowed = timing["planning_peak_bytes"] / 2**20, config.limits.memory / 2**20
+        return f"the planner added {held:.0f} MiB; the option limits.memory allows the whole run {allowed:.0f} MiB"
+    robot = int(result.statistics.get("failed_robot", -1))
+    said = _BLAMES.get(result.status)
+    if said is not None and 0 <= robot < len(problem):
+        x, y = problem.roadmap.position[problem.start[robot]]
+        return f"the planner {said} robot {robot}, which starts at ({x:.1f}, {y:.1f})"
     return f"the planner ended with {result.status}"
 
 
