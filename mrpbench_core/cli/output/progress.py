@@ -39,6 +39,7 @@ class Printed(StudyProgress):
         self._counts: Counter[str] = Counter()
         self._began = self._drawn = self._told = time.monotonic()
         self._folder: ResultsFolder | None = None
+        self._warned = False
 
     def selected(self, selection: Selection, results: Results) -> None:
         """Print the number of runs to execute."""
@@ -46,6 +47,7 @@ class Printed(StudyProgress):
             sys.stderr.write(f"{error}\n")
         self._total, self._counts, self._folder = len(selection.todo), Counter(), results.folder
         self._began = self._told = time.monotonic()
+        self._warned = False
         recorded = sum(run_id in results for run_id in selection.chosen)
         chosen = counted(len(selection.chosen), "run")
         print(f"{results.folder.path}: {self._total} of {chosen} to do, {recorded} recorded")
@@ -73,6 +75,9 @@ class Printed(StudyProgress):
         if record["status"] == RunStatus.CRASHED and self._folder is not None:
             said.append(f"see {self._folder.log(point.run_id)}")
         self._end(point, record["status"], "; ".join(filter(None, said)))
+        if record["status"] == RunStatus.GOALS_MISSED and not self._warned and (note := _too_short(record)):
+            self._warned = True
+            self._say(note)
 
     def lost(self, point: StudyRun, reason: str) -> None:
         """Print that the run is repeated."""
@@ -141,6 +146,17 @@ class Printed(StudyProgress):
         passed, done = now - self._began, self._counts.total()
         left = f", about {_clock(passed / done * (self._total - done))} left" if done else ""
         return _clock(passed) + left
+
+
+def _too_short(record: dict[str, Any]) -> str | None:
+    """Say that no execution within the limit could end a plan."""
+    takes, limit = record["metrics"].get("planning.makespan"), record["config"]["limits"]["execution"]
+    if takes is None or takes <= limit:
+        return None
+    return (
+        f"note: the plan of {record['run_id'][:SHORT]} takes {takes:.0f} s, and limits.execution is {limit:g} s, so its"
+        " robots cannot arrive: raise limits.execution"
+    )
 
 
 def _clock(seconds: float) -> str:

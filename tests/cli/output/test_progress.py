@@ -63,6 +63,20 @@ def test_long_studies_say_without_a_terminal_how_long_they_take(capsys, monkeypa
     assert told == ["2 of 9 runs after 1:20, about 4:40 left"]
 
 
+def test_a_limit_that_is_shorter_than_the_plan_is_said_once(capsys):
+    shown = Printed(live=True)
+    points = [types.SimpleNamespace(run_id=f"{number:016d}", axes={}) for number in range(3)]
+    results = type("NoResults", (dict,), {"damaged": (), "folder": ResultsFolder(Path("out"))})()
+    shown.selected(types.SimpleNamespace(todo=points, chosen=(), changed=()), results)
+    for point, takes in zip(points, (8.0, 42.4, 50.0), strict=True):
+        shown.started(point)
+        config = {"limits": {"execution": 10.0}}
+        record = {"run_id": point.run_id, "config": config, "metrics": {"planning.makespan": takes}}
+        shown.finished(point, record | {"status": "goals_missed"})
+    (note,) = [line for line in capsys.readouterr().out.splitlines() if "note:" in line]
+    assert "000000000000 takes 42 s, and limits.execution is 10 s" in note
+
+
 def test_the_live_line_does_not_wrap(capsys, monkeypatch):
     monkeypatch.setattr(progress, "REFRESH_S", 0.0)
     monkeypatch.setenv("COLUMNS", "40")
