@@ -79,6 +79,9 @@ class Component(ABC):
     live: ClassVar[bool] = False
     """True if something outside with a clock of its own takes part; such runs are marked and are not repeatable."""
 
+    reserved: ClassVar[frozenset[str]] = frozenset()
+    """Names that no component of the kind may have."""
+
     suite: ClassVar[str | None] = None
     """The conformance suite of a kind that a plugin defines, as `package.module:Class`; the class of the kind sets it.
 

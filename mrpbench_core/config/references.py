@@ -8,6 +8,7 @@ import attrs
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.config.content import content_hash
+from mrpbench_core.config.hints import to_matrix
 from mrpbench_core.config.items import Item
 from mrpbench_core.config.scalars import Unfit, show
 from mrpbench_core.files.errors import InputError, InputErrors
@@ -56,7 +57,7 @@ class References:
         registry = Registry(kind)
         if not isinstance(chosen.value, str) or not chosen.value:
             expected = f"expected the name of a {registry.kind} or a block, got {show(chosen.value)}"
-            raise InputErrors(chosen.location.error(key, expected))
+            raise InputErrors(chosen.location.error(key, expected, to_matrix(chosen.value, key)))
         try:
             return registry.get(chosen.value, self.folder, self.sources)
         except InputError as error:

@@ -30,19 +30,19 @@ def stored(folder="results/tiny"):
     return [json.loads(line) for line in lines]
 
 
-def test_tables_have_counts_intervals_and_rules(study):
+def test_tables_have_counts_and_intervals_and_the_answer_is_last(study):
     code, output, errors = study("report", "results/tiny")
     assert (code, errors) == (0, "")
     assert "2/2        100 % [34, 100]" in output
     for words in (
         "How the runs ended",
-        "Pair by pair",
-        "seed 0",
+        "Means over all runs that have the value",
         "Seeds: 0..1; repeats: 0.",
         "Wilson intervals",
-        "2 times the planning limit",
     ):
         assert words in output
+    assert output.index("How the runs ended") < output.index("too few to compare") < output.index("wrote ")
+    assert "2 times the planning limit" not in output, "the rules are in the page"
 
 
 def test_the_files_have_the_numbers_of_the_tables(study):

@@ -197,6 +197,18 @@ def test_a_format_of_an_earlier_release_gives_one_note(study, errors, install):
     assert line.endswith("no format is called 'table' (`mrpbench plugins` lists what is installed: csv, rosbag2)")
 
 
+def test_a_metric_is_not_called_like_a_part_of_records(errors, tmp_path):
+    (tmp_path / "mine.py").write_text(
+        "import attrs\nfrom mrpbench_core.api import Column, Metric\n"
+        "@attrs.frozen(kw_only=True)\nclass timing(Metric):\n"
+        "    columns = (Column('planning_s', 's', 'lower', 'mine'),)\n"
+        "    def measure(self, run): return {'planning_s': 1.0}\n"
+    )
+    assert errors(BASE + "metrics: [planning, ./mine.py:timing]") == [
+        "some.yaml:4:21: metrics.1: a metric cannot be called 'timing': records have a part of that name"
+    ]
+
+
 def test_files_are_relative_to_the_configuration_and_must_exist(study, errors, tmp_path, monkeypatch):
     (tmp_path / "maps").mkdir()
     (tmp_path / "maps" / "a.yaml").write_text("x")
