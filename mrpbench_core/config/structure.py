@@ -127,7 +127,7 @@ class Structure:
         if origin in (dict, Mapping) or kind in (dict, Mapping):
             return self._mapping(item, expected, key)
         if kind in _SCALARS:
-            return scalar(item.value, kind, expected.unit)
+            return scalar(item.value, kind, expected.unit, item.text)
         if kind is Any:
             return item.data
         if kind is Path:

@@ -54,14 +54,10 @@ class Node:
         return self.value
 
     def text(self) -> str:
-        """Return a text. The editor writes names that look like numbers without quotes."""
-        if self.value is None:
-            return ""
-        if isinstance(self.value, bool):
-            return str(self.value).lower()
-        if not isinstance(self.value, str | int | float):
+        """Return a text; a number, which the editor writes without quotes too, as the file spells it."""
+        if isinstance(self.value, dict | list):
             raise self.error(f"should be text, not {_kind(self.value)}")
-        return str(self.value)
+        return self.document.text(self.steps) or ""
 
     def index(self, count: int, what: str) -> int:
         """Return the index of a vertex, which a `what` (a lane, a wall) names, on a level with `count` vertices."""
