@@ -188,7 +188,6 @@ def test_floors_and_holes_are_kept(tmp_path):
         ),
         ("name: hut", "coordinate_system: web_mercator", "1:20: coordinate_system 'web_mercator' is not supported"),
         ("name: hut", "coordinate_system: polar", "'polar' is unknown"),
-        ("[1, hinged]", "[1, hinged], motion_axis: [1, top]", "'motion_axis' should be start or end, not 'top'"),
         ("name: hut", "reference_level_name: L7", "hut.building.yaml:1:23: no level 'L7' (levels: L1)"),
         ("levels:", "floors:", "hut.building.yaml:1:1: has no levels"),
     ],
