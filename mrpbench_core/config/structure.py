@@ -14,8 +14,10 @@ from typing import Any, Literal, TypeVar, cast
 import attrs
 
 from mrpbench_core.api.component import Component
+from mrpbench_core.api.world import WorldSource
 from mrpbench_core.config.containers import Expected, mapping, sequence, union
 from mrpbench_core.config.items import Item, Location, from_data
+from mrpbench_core.config.maps import SUFFIXES
 from mrpbench_core.config.references import References, short_name
 from mrpbench_core.config.scalars import Unfit, literal, member, scalar, show
 from mrpbench_core.config.settings import EXECUTION, WITHOUT_PHYSICS, FleetEntry, RunConfig
@@ -166,8 +168,10 @@ class Structure:
         if chosen is None:
             word = Registry(kind).kind
             raise InputErrors(item.location.error(key, f"names no {word}", f"add `plugin:` with the name of a {word}"))
-        cls = self._references.plugin(chosen, kind, key, default)
         options = {name: inner for name, inner in block.value.items() if name != "plugin"}
+        if kind is WorldSource and str(chosen.value).endswith(SUFFIXES):
+            options["file"], chosen = chosen, self._references.plugin_of_map(chosen, key)
+        cls = self._references.plugin(chosen, kind, key, default)
         inner = attrs.evolve(block, value=options)
         if is_of(cls):
             return cast("Component", self._options(inner, cls, key, {}, chosen.value))
