@@ -23,6 +23,8 @@ from mrpbench_core.model.worlds.world import Level, World
 
 KEYS = ("image", "resolution", "origin", "occupied_thresh", "free_thresh", "negate", "mode")
 MODES = ("trinary", "scale", "raw")
+WORDS = {"yes": True, "on": True, "no": False, "off": False}
+"""Truth values that map_server reads besides those of YAML 1.2."""
 TOLERANCE = 1e-9
 """Rounding of a grey value, so that one that equals a threshold reaches it."""
 
@@ -117,6 +119,7 @@ def _share(fields: dict[str, Node], key: str, default: float) -> float:
 
 def _flag(fields: dict[str, Node], key: str) -> bool:
     value = fields[key].value if key in fields else False
+    value = WORDS.get(str(value).lower(), value)
     if value not in (0, 1):
         raise fields[key].error(f"{key} should be 0 or 1, not {value!r}")
     return bool(value)

@@ -56,7 +56,10 @@ def test_unknown_cells_can_be_free(load):
 
 
 def test_negated_images_are_light_where_occupied(load):
-    assert blocked(load([[0, 254, 120]], YAML.replace("negate: 0", "negate: 1"))) == [[False, True, True]]
+    for word in ("1", "true", "yes", "On"):
+        assert blocked(load([[0, 254, 120]], YAML.replace("negate: 0", f"negate: {word}"))) == [[False, True, True]]
+    for word in ("0", "False", "no", "off"):
+        assert blocked(load([[0, 254, 120]], YAML.replace("negate: 0", f"negate: {word}"))) == [[True, False, True]]
 
 
 def test_thresholds_are_the_files(load):
