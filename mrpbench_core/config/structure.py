@@ -16,9 +16,11 @@ from typing import Any, Literal, TypeVar, cast
 import attrs
 
 from mrpbench_core.api.component import Component
+from mrpbench_core.api.world import WorldSource
 from mrpbench_core.config.containers import Expected, is_block, mapping, sequence, union
 from mrpbench_core.config.hints import plugins_with, to_matrix
 from mrpbench_core.config.items import Item, Location, from_data
+from mrpbench_core.config.maps import SUFFIXES
 from mrpbench_core.config.references import References, short_name
 from mrpbench_core.config.scalars import Unfit, literal, member, scalar, show
 from mrpbench_core.config.settings import EXECUTION, WITHOUT_PHYSICS, FleetEntry, RunConfig
@@ -132,7 +134,7 @@ class Structure:
         if origin in (dict, Mapping) or kind in (dict, Mapping):
             return self._mapping(item, expected, key)
         if kind in _SCALARS:
-            return scalar(item.value, kind, expected.unit)
+            return scalar(item.value, kind, expected.unit, item.text)
         if kind is Any:
             return item.data
         if kind is Path:
@@ -171,8 +173,10 @@ class Structure:
         if chosen is None:
             word = Registry(kind).kind
             raise InputErrors(item.location.error(key, f"names no {word}", f"add `plugin:` with the name of a {word}"))
-        cls = self._references.plugin(chosen, kind, key, default)
         options = {name: inner for name, inner in block.value.items() if name != "plugin"}
+        if kind is WorldSource and str(chosen.value).endswith(SUFFIXES):
+            options["file"], chosen = chosen, self._references.plugin_of_map(chosen, key)
+        cls = self._references.plugin(chosen, kind, key, default)
         inner = attrs.evolve(block, value=options)
         if is_of(cls):
             return cast("Component", self._options(inner, cls, key, {}, chosen.value))

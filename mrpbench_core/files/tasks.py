@@ -109,10 +109,10 @@ class TaskReader:
         return [self._goal((*steps, index)) for index in range(self.length(steps))]
 
     def _goal(self, steps: Steps) -> Place:
-        value = self.at(steps)
-        if self._find is not None and isinstance(value, str):
+        name = self.document.text(steps)
+        if self._find is not None and name is not None:
             try:
-                return self._find(value)
+                return self._find(name)
             except InputError as error:
                 raise self.document.error(error.message, steps, hint=error.hint) from None
         self.mapping(steps, {"x", "y", "yaw", "level"}, {"x", "y"})
@@ -154,9 +154,11 @@ class TaskReader:
 
     def text(self, mapping: Mapping[str, Any], steps: Steps) -> str:
         """Return the name in a mapping, or ''."""
-        name = mapping.get("name", "")
-        if not isinstance(name, str):
-            raise self.document.error("must be text", (*steps, "name"), hint="put it in quotes")
+        if mapping.get("name") is None:
+            return ""
+        name = self.document.text((*steps, "name"))
+        if name is None:
+            raise self.document.error("must be text", (*steps, "name"))
         return name
 
     def length(self, steps: Steps) -> int:

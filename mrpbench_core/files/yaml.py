@@ -44,12 +44,13 @@ _NAMED: dict[str, Any] = {
 class _Place:
     """The location of a value, and those of all values inside it."""
 
-    __slots__ = ("column", "inside", "key", "line")
+    __slots__ = ("column", "inside", "key", "line", "text")
 
-    def __init__(self, mark: Any, key: Any = None) -> None:
+    def __init__(self, mark: Any, text: str | None = None) -> None:
         self.line: int = mark.line + 1
         self.column: int = mark.column + 1
-        self.key: _Place | None = key
+        self.text = text  # of a scalar that is not empty
+        self.key: _Place | None = None
         self.inside: dict[str | int, _Place] = {}
 
 
@@ -76,6 +77,13 @@ class Document:
             if key and index == len(steps) - 1 and place.key is not None:
                 place = place.key
         return place.line, place.column
+
+    def text(self, steps: Steps) -> str | None:
+        """Return the scalar at `steps` as the file spells it (`1.10`, `007`); None if it is empty or not a scalar."""
+        place = self._root
+        for step in steps:
+            place = place.inside[step]
+        return place.text
 
     def error(self, message: str, steps: Steps = (), *, key: bool = False, hint: str | None = None) -> InputError:
         """Return an InputError with the location at `steps`; see `mark`."""
@@ -186,7 +194,7 @@ class _DocumentReader:
         frame = self.stack[-1] if self.stack else None
         if frame is not None and frame.key is None and type(frame.value) is dict:
             if event.anchor:
-                self.anchors[event.anchor] = _Frame(text, _Place(event.start_mark))
+                self.anchors[event.anchor] = _Frame(text, _Place(event.start_mark, text))
             self._key(frame, text, event)
             return
         value = text
@@ -195,7 +203,7 @@ class _DocumentReader:
                 value = plain_scalar(text)
             except ValueError:
                 raise self._error("this number is too large", event.start_mark) from None
-        leaf = _Frame(value, _Place(event.start_mark))
+        leaf = _Frame(value, _Place(event.start_mark, None if value is None else text))
         if event.anchor:
             self.anchors[event.anchor] = leaf
         self._put(leaf)
@@ -246,7 +254,7 @@ class _DocumentReader:
         self.expanded += anchored.size
         if self.expanded > ALIAS_LIMIT:
             raise self._error(f"aliases add more than {ALIAS_LIMIT} values", event.start_mark)
-        copy = _Frame(anchored.value, _Place(event.start_mark))
+        copy = _Frame(anchored.value, _Place(event.start_mark, anchored.place.text))
         copy.open, copy.size, copy.height = False, anchored.size, anchored.height
         copy.place.inside = anchored.place.inside
         self._put(copy)

@@ -70,6 +70,14 @@ def test_an_errand_without_a_place_is_located(tmp_path):
         read_tasks(path, find)
 
 
+def test_places_and_tasks_named_like_numbers_keep_their_spelling(tmp_path):
+    path = tmp_path / "tasks.yaml"
+    path.write_text("tasks:\n- {name: 007, goals: [1.10, [1E3, 1.10]]}\n")
+    asked = []
+    (only,) = read_tasks(path, lambda name: (asked.append(name), PLACES["returns"])[1])
+    assert (only.task.name, asked) == ("007", ["1.10", "1E3", "1.10"])
+
+
 @pytest.mark.parametrize("name", ["tasks.json", "tasks.yaml"])
 def test_json_is_understood_with_names_and_places_in_metres(tmp_path, name):
     path = tmp_path / name
