@@ -39,6 +39,8 @@ class Recorder:
         yield
         test["cpu"], test["wall"] = round(_spent() - began, 3), round(time.monotonic() - wall, 3)
         self._switch(before, "")
+        if len(self._tests) % 100 == 0:
+            self._write()
 
     @pytest.hookimpl(hookwrapper=True)
     def pytest_fixture_setup(self, fixturedef: Any) -> Generator[None]:
@@ -58,7 +60,10 @@ class Recorder:
         """Save what was measured."""
         self._coverage.stop()
         self._coverage.save()
-        (self._folder / "tests.json").write_text(json.dumps(self._tests, indent=0))
+        self._write()
+
+    def _write(self) -> None:
+        (self._folder / "measured.json").write_text(json.dumps(self._tests, indent=0))
 
     def _switch(self, context: str, of_children: str) -> str:
         self._coverage.switch_context(context)
