@@ -81,7 +81,7 @@ soak: install ## compare with brute force, execute drawn plans a million times, 
 	$(BIN)/python plugins/crowds/walking/tests/soak_people.py 60 --crowd orca
 
 pages: install ## do what every page of the documentation says, in empty folders (ten minutes)
-	MRPBENCH_ALL_PAGES=1 $(BIN)/pytest --numprocesses $(JOBS) --dist worksteal tests/docs tests/cli/test_new_native_planner.py
+	MRPBENCH_ALL_PAGES=1 $(BIN)/pytest --numprocesses $(JOBS) --dist worksteal tests/docs tests/cli/test_new_native_planner.py tests/cli/test_external_planner_page.py
 
 SANITIZED := build/sanitized
 CHECKED = LD_PRELOAD="$(shell c++ -print-file-name=libasan.so) $(shell c++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 $(SANITIZED)/bin/python
