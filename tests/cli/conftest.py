@@ -30,6 +30,12 @@ def tiny_map():
     return MAP
 
 
+@pytest.fixture(scope="session")
+def tiny_study():
+    """Return a study of two robots on it, once for each of two seeds."""
+    return STUDY
+
+
 @pytest.fixture
 def mrpbench(tmp_path, monkeypatch, capsys):
     """Return a function that runs a command in a folder with a tiny study and gives exit code, output and errors."""
