@@ -6,11 +6,6 @@ from mrpbench_core.testing import SimulatorConformance
 pytest.importorskip("pybullet", reason="PyBullet has no wheel for this Python")
 
 
-class TestWheels(SimulatorConformance):
-    def make(self):
-        return PyBullet()
-
-
 class TestBodies(SimulatorConformance):
     def make(self):
         return PyBullet(model="body")
