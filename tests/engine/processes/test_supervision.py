@@ -17,6 +17,9 @@ from mrpbench_core.files.errors import InputErrors
 from mrpbench_core.model.runs.status import RunStatus
 
 
+pytestmark = pytest.mark.usefixtures("kept_workers")
+
+
 def outcomes(study, does, **options):
     """Records of runs that each do one thing, by what they do."""
     results = run(study | {"matrix": {"planner.does": list(does)}}, out="out", **options)
