@@ -78,4 +78,10 @@ def test_what_is_not_known_is_a_dash_and_other_cells_are_short():
 
 
 def test_p_values_are_written_as_in_journals():
-    assert [p_value(p) for p in (0.0, 0.00099, 0.001, 0.04951, 1.0)] == ["< 0.001", "< 0.001", "0.001", "0.050", "1.000"]
+    assert [p_value(p) for p in (0.0, 0.00099, 0.001, 0.04951, 1.0)] == [
+        "< 0.001",
+        "< 0.001",
+        "0.001",
+        "0.050",
+        "1.000",
+    ]
