@@ -62,7 +62,7 @@ SQUARE = [(0, 0), (6, 0), (6, 6), (0, 6)]
         # Of two steps that are as near to the line, the second is taken: east first, or west first on the way back.
         ([(0, 0), (3, 3)], [(0, 1)], ["###.", "#...", "....", "...#"]),
         ([(3, 3), (0, 0)], [(0, 1)], ["#...", "...#", "...#", "..##"]),
-        # The walk goes east, north, three times east, north and east; narrow cells open their left and lower neighbours.
+        # East, north, three times east, north and east; narrow cells open their left and lower neighbours.
         ([(0, 0), (5, 2)], [(0, 1)], ["###...", ".....#", ".....#"]),
         # A lane inside is widened to one side, and ends where its places are.
         (

@@ -16,7 +16,6 @@ from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.files.errors import InputErrors
 from mrpbench_core.model.runs.status import RunStatus
 
-
 pytestmark = pytest.mark.usefixtures("kept_workers")
 
 
