@@ -1,6 +1,5 @@
 """No command imports a plugin in its own process: a module that does anything there is that plugin's error, by name."""
 
-import json
 import os
 import subprocess
 import sys
@@ -97,14 +96,3 @@ def test_a_command_that_can_do_without_the_plugin_says_what_lacks(folder, words)
 def test_a_command_that_only_lists_plugins_imports_none(folder, words):
     done = mrpbench(folder, *words.split(), site="ends")
     assert (done.returncode, done.stderr) == (0, "")
-
-
-def test_the_schema_leaves_out_the_distribution_that_it_cannot_describe(folder):
-    done = mrpbench(folder, "schema", site="ends")
-    assert done.returncode == 0
-    assert "the schema leaves out acme-planted" in done.stderr
-    assert "ended with exit code 3" in done.stderr
-    assert done.stderr.count("\n") == 1
-    planners = json.loads(done.stdout)["$defs"]["mrpbench.planners"]["oneOf"][0]["enum"]
-    assert "planted" not in planners
-    assert "prioritized" in planners
