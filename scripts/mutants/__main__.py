@@ -98,7 +98,9 @@ def record(tests: list[str]) -> None:
     with (RECORD / "log").open("w") as log:
         subprocess.run(command, cwd=ROOT, env=environment, stdout=log, stderr=log, check=False)
     combine = [sys.executable, "-m", "coverage", "combine", "--quiet", "--rcfile", str(RECORD / "coveragerc")]
-    subprocess.run(combine, cwd=ROOT, check=True)
+    subprocess.run(combine, cwd=ROOT, stderr=subprocess.DEVNULL, check=True)  # files of killed processes are damaged
+    for file in RECORD.glob("coverage.*"):
+        file.unlink()
     (RECORD / "measured.json").rename(RECORD / "tests.json")  # all of the record is there
     measured = json.loads((RECORD / "tests.json").read_text())
     failed = [test for test, row in measured.items() if not row["passed"]]
@@ -116,7 +118,7 @@ class Lines:
         self._of_context: dict[str, list[str]] = {}
         for test, row in self._tests.items():
             if row["passed"]:
-                for context in (test, covering.FILE + test.partition("::")[0], *row["fixtures"]):
+                for context in (test, covering.FILE + _file_of(test), *row["fixtures"]):
                     self._of_context.setdefault(context, []).append(test)
 
     def tests(self, mutant: Mutant, budget: float) -> list[str]:
@@ -131,12 +133,14 @@ class Lines:
         if not found:  # only imported, or only in processes that were killed
             found = {test for test in self._tests if _is_next_to(test, mutant.file) and self._tests[test]["passed"]}
         spent, chosen = 0.0, []
-        for test in sorted(found, key=lambda test: (not _is_next_to(test, mutant.file), self._tests[test]["cpu"])):
-            spent += self._tests[test]["cpu"]
+        cost = {test: self._tests[test]["cpu"] for test in found}
+        for test in sorted(found, key=lambda test: (not _is_next_to(test, mutant.file), cost[test], test)):
+            spent += cost[test]
             if chosen and spent > budget:
                 break
             chosen.append(test)
-        return chosen
+        files = [_file_of(test) for test in chosen]
+        return sorted(chosen, key=lambda test: files.index(_file_of(test)))  # fixtures of a file are made once
 
 
 def judge(mutant: Mutant, tests: list[str]) -> dict[str, Any]:
@@ -151,7 +155,7 @@ def judge(mutant: Mutant, tests: list[str]) -> dict[str, Any]:
         return row | {"result": "survived"}
     chosen = FOLDER / "chosen.json"
     chosen.write_text(json.dumps(tests))
-    files = list(dict.fromkeys(test.partition("::")[0] for test in tests))
+    files = list(dict.fromkeys(map(_file_of, tests)))
     options = ["-x", "-p", "covering", "-p", "no:cacheprovider", "--timeout", "60", "--tb", "no", "-rfE"]
     command = [sys.executable, "-m", "pytest", *options, *files]
     environment = _environment() | {"MUTANTS_TESTS": str(chosen), "PYTHONDONTWRITEBYTECODE": "1"}
@@ -192,9 +196,13 @@ def restore() -> None:
         APPLIED.unlink()
 
 
+def _file_of(test: str) -> str:
+    return test.partition("::")[0]
+
+
 def _is_next_to(test: str, file: str) -> bool:
     """Whether the test is in the file that mirrors a production file, or in the tests of its plugin."""
-    path, name = Path(test.partition("::")[0]), Path(file)
+    path, name = Path(_file_of(test)), Path(file)
     if file.startswith("mrpbench_core/"):
         mirror = Path("tests", *name.parts[1:-1])
         return path == mirror / f"test_{name.name}" or (mirror in path.parents and name.stem == "__init__")
