@@ -122,7 +122,7 @@ class Lines:
                     self._of_context.setdefault(context, []).append(test)
 
     def tests(self, mutant: Mutant, budget: float) -> list[str]:
-        """The tests that execute the changed line, those next to the file and cheap ones first.
+        """The cheapest tests that execute the changed line, beginning with those next to the file.
 
         A line that runs when its file is imported counts as executed by all tests that execute any line of the file.
         """
@@ -133,13 +133,12 @@ class Lines:
         if not found:  # only imported, or only in processes that were killed
             found = {test for test in self._tests if _is_next_to(test, mutant.file) and self._tests[test]["passed"]}
         spent, chosen = 0.0, []
-        cost = {test: self._tests[test]["cpu"] for test in found}
-        for test in sorted(found, key=lambda test: (not _is_next_to(test, mutant.file), cost[test], test)):
-            spent += cost[test]
+        for test in sorted(found, key=lambda test: (self._tests[test]["cpu"], test)):
+            spent += self._tests[test]["cpu"]
             if chosen and spent > budget:
                 break
             chosen.append(test)
-        files = [_file_of(test) for test in chosen]
+        files = list(dict.fromkeys(map(_file_of, sorted(chosen, key=lambda test: not _is_next_to(test, mutant.file)))))
         return sorted(chosen, key=lambda test: files.index(_file_of(test)))  # fixtures of a file are made once
 
 
