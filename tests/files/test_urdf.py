@@ -1,8 +1,12 @@
 import math
+import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
+from mrpbench_core.files import urdf
 from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot, robot_reads
@@ -60,6 +64,14 @@ def test_fixed_joints_on_the_way_to_a_wheel_are_followed_with_their_turns(tmp_pa
     urdf = URDF.replace('<origin xyz="0 0 0.1"/>', there)
     urdf = urdf.replace('<origin xyz="0 0.2 0" rpy="-1.5708 0 0"/><axis xyz="0 0 1"/>', back)
     assert load(tmp_path, urdf).wheel_separation == pytest.approx(0.4)
+
+
+def test_an_origin_turns_about_fixed_axes_first_by_roll_then_pitch_then_yaw():
+    turns = (0.4, -0.9, 2.0)
+    joint = ET.fromstring(f'<joint><origin xyz="1 2 3" rpy="{turns[0]} {turns[1]} {turns[2]}"/></joint>')
+    frame = urdf._origin(joint, Path("cart.urdf"))
+    np.testing.assert_allclose(frame[:3, :3], Rotation.from_euler("xyz", turns).as_matrix(), atol=1e-12)
+    assert frame[:, 3].tolist() == [1, 2, 3, 1]
 
 
 def test_the_radius_of_a_wheel_that_is_a_mesh_stands_in_the_robots_file(tmp_path):

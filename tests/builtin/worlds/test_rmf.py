@@ -154,6 +154,12 @@ def test_one_level_can_be_chosen(tmp_path):
     assert {vertex.level for vertex in world.vertices} == {0}
 
 
+def test_a_lane_from_a_vertex_to_itself_is_left_out(tmp_path):
+    whole, world = (load(tmp_path, text) for text in (BUILDING, BUILDING.replace("- [3, 1, {", "- [3, 3, {")))
+    assert len(world.lanes) == len(whole.lanes) - 1
+    assert set(world.notes) - set(whole.notes) == {"lane from a vertex to itself is left out."}
+
+
 def test_floors_and_holes_are_kept(tmp_path):
     text = BUILDING + "    floors: [{vertices: [0, 1, 2], parameters: {}}]\n    holes: [{vertices: [0, 2, 3]}]\n"
     (level,) = load(tmp_path, text).levels

@@ -17,6 +17,8 @@ from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.files.errors import InputErrors
 from mrpbench_core.model.runs.status import RunStatus
 
+pytestmark = pytest.mark.usefixtures("kept_workers")
+
 
 def outcomes(study, does, **options):
     """Records of runs that each do one thing, by what they do."""

@@ -5,13 +5,13 @@ import pytest
 
 import mrpbench_core
 
+pytestmark = pytest.mark.usefixtures("kept_workers")
 NOISE = {"lidar": 0.01, "lidar_dropout": 0.01, "odometry": 0.01, "actuation": 0.05}
 CONTROLLERS = ["rpp", "graceful", {"plugin": "rotation_shim", "primary_controller": "rpp"}, "mppi"]
 
 
-@pytest.mark.parametrize("noise", [{}, NOISE], ids=["exact", "noisy"])
 @pytest.mark.parametrize("controller", CONTROLLERS, ids=["rpp", "graceful", "rotation_shim", "mppi"])
-def test_robots_drive_through_the_office_without_contact(tmp_path, controller, noise):
+def test_robots_drive_through_the_office_without_contact(tmp_path, controller):
     pytest.importorskip("mrpbench_planners_mapf")
     study = {
         "world": "office",
@@ -19,7 +19,7 @@ def test_robots_drive_through_the_office_without_contact(tmp_path, controller, n
         "planner": "prioritized",
         "controller": controller,
         "simulator": "planar",
-        "noise": noise,
+        "noise": NOISE,
         "metrics": ["execution"],
         "seed": 1,
     }
