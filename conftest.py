@@ -73,6 +73,12 @@ def tiny_map() -> str:
     return MAP
 
 
+@pytest.fixture(scope="session")
+def tiny_study() -> str:
+    """Return a study of two robots on it, once for each of two seeds."""
+    return STUDY
+
+
 @pytest.fixture
 def mrpbench(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]

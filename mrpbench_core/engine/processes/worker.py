@@ -92,7 +92,11 @@ def _guarded(job: dict[str, Any], channel: Channel, state: State) -> dict[str, A
     except MemoryError as error:
         _print_exception()
         held = f"the process held {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**10:.0f} MiB"
-        allowed = "" if state.config is None else f"; the option limits.memory allows {state.config.limits.memory / 2**20:.0f} MiB"
+        allowed = (
+            ""
+            if state.config is None
+            else f"; the option limits.memory allows {state.config.limits.memory / 2**20:.0f} MiB"
+        )
         message = f"{printable(str(error)) or 'no memory left'} ({held}{allowed})"
         return {"status": RunStatus.OUT_OF_MEMORY, "message": message}
     except BaseException as error:  # noqa: BLE001 - a plugin may raise anything, even SystemExit

@@ -45,5 +45,3 @@ class TestTrace(TaskSourceConformance):
 
     def make(self):
         return Trace(file=self.path, errands=2, scale=2)
-
-
