@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.api.discrete import DiscreteSimulator
 from mrpbench_core.config.items import Item
 from mrpbench_core.config.settings import (
     EXECUTION,
@@ -42,7 +41,7 @@ def refusals(config: RunConfig, root: Item) -> list[InputError]:
         return [_place(root, "delays.draws").location.error("delays.draws", "needs `execution: schedule_only`")]
     if config.simulator is None:
         return [] if config.tasks is None else [_place(root, "tasks").location.error("tasks", "needs a simulator")]
-    if isinstance(config.simulator, DiscreteSimulator):
+    if config.simulator is not None and config.simulator.executes_runs:
         if config.tasks is None:
             return [_place(root, "tasks").location.error("tasks", f"{_name(config.simulator)} needs a task source")]
         reason = f"means nothing with {_name(config.simulator)}, which counts steps"
@@ -143,7 +142,7 @@ def _of_planning_only(config: RunConfig) -> Iterator[tuple[str, str]]:
 
 def _of_executions(config: RunConfig) -> Iterator[tuple[str, str]]:
     localizer = config.localizer
-    if isinstance(config.simulator, DiscreteSimulator):
+    if config.simulator is not None and config.simulator.executes_runs:
         for key in (*BETWEEN_STEPS, *EXECUTION):
             yield key, f"{IDLE}{_name(config.simulator)} counts steps, and gives tasks to robots itself"
         return

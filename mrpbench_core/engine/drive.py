@@ -4,7 +4,7 @@ What this process says of the run is a claim: `mrpbench_core.referee` judges the
 """
 
 from collections.abc import Mapping
-from typing import Any, Self
+from typing import Any, Self, cast
 
 import attrs
 import numpy as np
@@ -99,7 +99,7 @@ def _drive(inputs: RunInputs, instance: Instance, claims: Claims) -> None:
             raise failure
         return
     claims.true_poses = granted_localizer(config)
-    if isinstance(config.simulator, DiscreteSimulator):
+    if config.simulator is not None and config.simulator.executes_runs:
         assert stream is not None
         failure, claims.unexported = execute_steps(inputs, context, stream)
     else:
@@ -132,8 +132,9 @@ def _stand(inputs: RunInputs, instance: Instance, stream: TaskStream) -> PlanRes
     """
     config, problem = inputs.config, instance.problem
     inputs.announce(Stage.PLANNING, {"limit_s": config.limits.planning})
-    if isinstance(config.simulator, DiscreteSimulator):
-        reason = config.simulator.skip(config.planner)
+    assert config.simulator is not None
+    if config.simulator.executes_runs:
+        reason = cast("DiscreteSimulator", config.simulator).skip(config.planner)
     else:
         asked = attrs.evolve(problem, features=problem.features | {Feature.COMMITMENTS})
         reason = config.planner.skip(asked) or config.planner.skip_tasks(problem, places_of(stream, instance))
