@@ -41,7 +41,7 @@ def refusals(config: RunConfig, root: Item) -> list[InputError]:
         return [_place(root, "delays.draws").location.error("delays.draws", "needs `execution: schedule_only`")]
     if config.simulator is None:
         return [] if config.tasks is None else [_place(root, "tasks").location.error("tasks", "needs a simulator")]
-    if config.simulator is not None and config.simulator.executes_runs:
+    if config.simulator.executes_runs:
         if config.tasks is None:
             return [_place(root, "tasks").location.error("tasks", f"{_name(config.simulator)} needs a task source")]
         reason = f"means nothing with {_name(config.simulator)}, which counts steps"

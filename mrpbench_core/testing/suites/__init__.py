@@ -5,7 +5,6 @@ import importlib
 from mrpbench_core.api.component import Component
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.plugins.kinds import kind_of
-from mrpbench_core.plugins.provenance import kind_class
 from mrpbench_core.testing.suites.assigner import AssignerConformance
 from mrpbench_core.testing.suites.component import ComponentConformance
 from mrpbench_core.testing.suites.controller import ControllerConformance
