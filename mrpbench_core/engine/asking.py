@@ -6,7 +6,7 @@ import attrs
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.engine.stages.question import SETTINGS, facts_of
+from mrpbench_core.engine.prepare.question import SETTINGS, facts_of
 from mrpbench_core.plugins.provenance import components_in, is_of_others, title
 from mrpbench_core.referee.asked import Asked
 from mrpbench_core.referee.plans import Promises

@@ -12,13 +12,13 @@ import numpy as np
 from mrpbench_core.api.discrete import DiscreteSimulator
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.checking.plan_result import result_fault
+from mrpbench_core.engine.drive.discrete import execute_steps
+from mrpbench_core.engine.drive.execute import execute_plan
+from mrpbench_core.engine.drive.plan import LATE_S, budget_of, call_planner
+from mrpbench_core.engine.drive.tasks import places_of, start_stream
 from mrpbench_core.engine.execution.loop_inputs import granted_localizer
 from mrpbench_core.engine.execution.replanning import replanning_fault
 from mrpbench_core.engine.stage import RunEnded, RunInputs
-from mrpbench_core.engine.stages.discrete import execute_steps
-from mrpbench_core.engine.stages.execute import execute_plan
-from mrpbench_core.engine.stages.plan import LATE_S, budget_of, call_planner
-from mrpbench_core.engine.stages.tasks import places_of, start_stream
 from mrpbench_core.files.printing import printable
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import Path as RobotPath
