@@ -154,7 +154,7 @@ def _print(facts: Mapping[str, Any]) -> None:
         ("levels, lifts", f"{facts['levels']}, {facts['lifts']}"),
         ("walls, doors, furniture", f"{facts['walls']}, {facts['doors']}, {facts['obstacles']}"),
         ("vertices", facts["vertices"]),
-        ("places of several graphs", facts["shared"]),
+        *([("places of several graphs", facts["shared"])] if facts["shared"] else []),
         ("edges", facts["edges"]),
         ("components", facts["components"]),
         ("cells", facts["cells"]),

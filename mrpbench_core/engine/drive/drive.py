@@ -85,7 +85,8 @@ def _drive(inputs: RunInputs, instance: Instance, claims: Claims) -> None:
         RunEnded: the run did not succeed.
     """
     config = inputs.config
-    if reason := replanning_fault(config):
+    executes_runs = config.simulator is not None and config.simulator.executes_runs
+    if not executes_runs and (reason := replanning_fault(config)):
         raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, reason)
     stream = start_stream(config, instance)
     result = _plan(inputs, instance.problem) if stream is None else _stand(inputs, instance, stream)
@@ -99,7 +100,7 @@ def _drive(inputs: RunInputs, instance: Instance, claims: Claims) -> None:
             raise failure
         return
     claims.true_poses = granted_localizer(config)
-    if config.simulator is not None and config.simulator.executes_runs:
+    if executes_runs:
         assert stream is not None
         failure, claims.unexported = execute_steps(inputs, context, stream)
     else:

@@ -27,7 +27,7 @@ def estimate(value, low=math.nan, high=math.nan, n=5):
         (12.34, 0.0, 2),
         (1.234, math.nan, 3),
         (0.01234, math.nan, 5),
-        (0.0, math.nan, 3),
+        (0.0, math.nan, 0),
         (123456.0, math.nan, 0),
         (-12.34, math.nan, 2),
     ],
