@@ -137,7 +137,13 @@ def _judge(job: Job, channel: Channel, state: State) -> Answer:
     _announcer(channel)(Stage.METRICS, {})
     asked, paths = Asked.of_message({**job["facts"]["asked"], "run_id": job["run_id"]}), _paths(job)
     metrics = _metrics(job, state, {metric["number"] for metric in job["facts"]["others_metrics"]})
-    claims, prepared = Claims.of_message(job["claims"]), Prepared(**job["prepared"])
+    prepared = Prepared(**job["prepared"])
+    try:
+        claims = Claims.of_message(job["claims"])
+    except ValueError as error:
+        message = f"what the process of the run says of it has another form: {error}"
+        ending = Ending(status=RunStatus.CONTRACT_BROKEN, stage=Stage.METRICS, message=message)
+        claims = Claims(ending=ending)
     record = record_of(asked, prepared, claims, paths, metrics, state.folder(paths.instances))
     keep(record, paths, job["keep"])
     return {"record": jsonable(record.message())}
