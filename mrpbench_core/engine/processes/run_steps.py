@@ -80,7 +80,7 @@ def _timing(answer: Message, limit_s: float) -> Message:
         return {"claimed": None}  # which is refused
     times = claimed | {"run_wall_s": outside["run_wall_s"]}
     seemed = min(limit_s, (outside["planning_s"] - LATE_S) / SLOWER)
-    if "planning_s" in times and times["planning_s"] < seemed:
+    if 0 <= times.get("planning_s", -1) < seemed:
         times["planning_s"] = seemed
     return times
 

@@ -30,12 +30,12 @@ from mrpbench_core.engine.stages.fleet import build_fleet
 from mrpbench_core.engine.stages.question import SETTINGS, Question
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.instance import Instance
-from mrpbench_core.model.runs.status import Stage
+from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.plugins.provenance import title
 from mrpbench_core.referee.asked import Asked
 from mrpbench_core.referee.measuring import measure
-from mrpbench_core.referee.verdict import finished_run
+from mrpbench_core.referee.verdict import Ending, finished_run
 from mrpbench_core.store.instances import InstanceFolder
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
