@@ -65,7 +65,7 @@ class Claims:
             if isinstance(value, list) and name == "planning_history":
                 continue
             if not isinstance(value, int | float) or not math.isfinite(value) or value < 0:
-                raise ValueError(f"the time {name!r:.40} is {value!r:.40}")
+                raise ValueError(f"the time {name!r:.40} is not a number of 0 or more")
         return claims
 
 

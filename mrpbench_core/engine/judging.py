@@ -76,8 +76,10 @@ def record_of(
             with closing(recording):
                 verdict = judge(asked, recording, prepared.instance, metrics, claims.ending)
                 record.executed = asked.executes and "time" in recording.channels
-    elif claims.ending is None or claims.ending.status not in UNRECORDED:
-        verdict = broken("nothing was recorded")
+    else:
+        paths.recording.unlink(missing_ok=True)  # which has no verdict
+        if claims.ending is None or claims.ending.status not in UNRECORDED:
+            verdict = broken("nothing was recorded")
     if record.executed:
         record.true_poses = asked.true_poses
     record.plan, record.metrics, record.unmeasured = verdict.plan, verdict.metrics, verdict.unmeasured

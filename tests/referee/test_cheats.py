@@ -10,6 +10,7 @@ from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.engine.study.options import StudyOptions
 from mrpbench_core.engine.study.reading import read_study
 from mrpbench_core.engine.study.study import run_study
+from mrpbench_core.report.reading.runs import read_runs
 from tests.referee import cheating
 
 MAP = "type octile\nheight 5\nwidth 6\nmap\n......\n.@@@@.\n......\n.@..@.\n......\n"
@@ -85,11 +86,17 @@ def planned(results):
 
 def test_planners_that_change_what_they_are_judged_by_gain_nothing(planned):
     found = {name: gains(record, planned["nothing"]) for name, record in planned.items()}
-    better = {name: gained for name, gained in found.items() if gained}
-    assert better.keys() == {"bound_too_high", "cbs"}  # refuted by others in reports; and another plan
+    assert {name for name, gained in found.items() if gained} == {"bound_too_high", "cbs"}
     slow = planned["slow_clock"]["timing"]
-    print(planned["slow_clock"])
     assert 0.7 < slow["planning_s"] < slow["run_wall_s"]
+
+
+def test_a_bound_that_another_plan_refutes_makes_a_run_a_failure_in_reports_and_harms_no_other(planned, results):
+    runs = read_runs([load("planned")])
+    statuses = dict(zip(runs.run_id, runs.status, strict=True))
+    refuted = {name for name, record in planned.items() if statuses[record["run_id"]] != record["status"]}
+    assert refuted == {"bound_too_high"}
+    assert statuses[planned["bound_too_high"]["run_id"]] == "promise_broken"
 
 
 def test_honest_planners_are_judged_as_without_cheats(planned, results):
