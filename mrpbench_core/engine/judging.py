@@ -20,7 +20,6 @@ from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.run_files import seal
 
-
 UNRECORDED = RunStatus.SKIPPED, RunStatus.CONTRACT_BROKEN
 """How a run without a recording can have ended."""
 

@@ -1,7 +1,6 @@
-"""No component is better off for changing what it is judged by, and no honest run changes because another one cheats."""
+"""No component is better off for changing what it is judged by, and no honest run changes because another cheats."""
 
 import shutil
-from pathlib import Path
 
 import pytest
 
@@ -11,7 +10,7 @@ from mrpbench_core.engine.study.options import StudyOptions
 from mrpbench_core.engine.study.reading import read_study
 from mrpbench_core.engine.study.study import run_study
 from mrpbench_core.report.reading.runs import read_runs
-from tests.referee import cheating
+from tests.referee import cheating_drivers, cheating_planners
 
 MAP = "type octile\nheight 5\nwidth 6\nmap\n......\n.@@@@.\n......\n.@..@.\n......\n"
 STUDY = {
@@ -22,6 +21,7 @@ STUDY = {
     "planner": "prioritized",
     "limits": {"planning": "5 s", "execution": "20 s", "wall": "60 s"},
 }
+PLANNED = {"robots": 6, "simulator": "none", "metrics": ["planning"]}
 FAILED = {
     "plan_invalid",
     "plan_not_found",
@@ -30,21 +30,25 @@ FAILED = {
     "execution_aborted",
     "goals_missed",
 }
+LOWER = {f"execution.{name}" for name in ("time_blocked_s", "time_blocked_max_s", "distance_m")}
+"""Columns that get worse for robots that are said to have reached what is ahead of them."""
 COUNTED = ("expansions", "generated", "low_level_expansions")
 """Columns that planners count, as tables say."""
 
 
 def does(cls, names):
     """Blocks of a plugin, one for each thing to do."""
+    file = "cheating_planners.py" if cls == "Cheat" else "cheating_drivers.py"
     names = names if isinstance(names, list) else [name for name in vars(names) if not name.startswith("_")]
-    return [{"plugin": f"./cheating.py:{cls}", "does": name} for name in names]
+    return [{"plugin": f"./{file}:{cls}", "does": name} for name in names]
 
 
 @pytest.fixture(scope="module")
 def results(tmp_path_factory):
     """Return a function that does a study in worker processes, which all studies share."""
     folder = tmp_path_factory.mktemp("cheats")
-    shutil.copy(cheating.__file__, folder / "cheating.py")
+    for module in (cheating_planners, cheating_drivers):
+        shutil.copy(module.__file__, folder)
     (folder / "small.map").write_text(MAP)
     with pytest.MonkeyPatch.context() as patch, slots_of_this_process() as slots:
         patch.chdir(folder)
@@ -80,8 +84,8 @@ def by_name(records, key):
 def planned(results):
     """The records of a study of planners: those that cheat among honest ones."""
     honest = [*does("Cheat", ["nothing"]), "prioritized", "cbs"]
-    planners = [*honest[:1], *does("Cheat", cheating.Planning), *honest[1:]]
-    return by_name(results("planned", robots=6, simulator="none", metrics=["planning"], matrix={"planner": planners}), "planner")
+    planners = [*honest[:1], *does("Cheat", cheating_planners.Planning), *honest[1:]]
+    return by_name(results("planned", **PLANNED, matrix={"planner": planners}), "planner")
 
 
 def test_planners_that_change_what_they_are_judged_by_gain_nothing(planned):
@@ -100,21 +104,20 @@ def test_a_bound_that_another_plan_refutes_makes_a_run_a_failure_in_reports_and_
 
 
 def test_honest_planners_are_judged_as_without_cheats(planned, results):
-    for name, record in by_name(
-        results("alone", robots=6, simulator="none", metrics=["planning"], matrix={"planner": ["prioritized", "cbs"]}), "planner"
-    ).items():
+    alone = by_name(results("alone", **PLANNED, matrix={"planner": ["prioritized", "cbs"]}), "planner")
+    for name, record in alone.items():
         assert all(record[key] == planned[name][key] for key in ("run_id", "status", "metrics", "plan"))
     same = {key: planned["nothing"][key] for key in ("status", "metrics", "plan")}
     assert same == {key: planned["prioritized"][key] for key in same}
 
 
 DRIVEN = {
-    "simulator": [*does("CheatingSimulator", ["nothing"]), *does("CheatingSimulator", cheating.Simulating)],
-    "navigator": ["waypoints", *does("CheatingNavigator", cheating.Navigating)],
+    "simulator": [*does("CheatingSimulator", ["nothing"]), *does("CheatingSimulator", cheating_drivers.Simulating)],
+    "navigator": ["waypoints", *does("CheatingNavigator", cheating_drivers.Navigating)],
     "localizer": ["ground_truth", *does("CheatingLocalizer", ["odometry", "covers_ears", "patches_truth"])],
     "dispatcher": ["all_at_once", *does("CheatingDispatcher", ["goals", "plan"])],
     "controller": ["pure_pursuit", *does("CheatingController", ["limits", "walls"])],
-    "assigner": ["identity", "./cheating.py:CheatingAssigner"],
+    "assigner": ["identity", "./cheating_drivers.py:CheatingAssigner"],
 }
 """Blocks of each kind, the honest one first."""
 
@@ -126,14 +129,14 @@ def test_components_of_an_execution_that_cheat_gain_nothing(results, kind):
     assert honest["status"] == "succeeded"
     assert len(cheats) == len(DRIVEN[kind]) - 1
     for cheat in cheats:
-        worse = {f"execution.{name}" for name in ("time_blocked_s", "time_blocked_max_s", "distance_m")}
-        assert set(gains(cheat, honest)) <= worse, cheat["config"][kind]
-        assert all(cheat["metrics"][key] >= honest["metrics"][key] for key in worse & cheat["metrics"].keys())
+        differ = set(gains(cheat, honest))
+        assert differ <= LOWER, cheat["config"][kind]
+        assert all(cheat["metrics"][key] > honest["metrics"][key] for key in differ)
 
 
 def test_robots_that_pass_through_one_another_are_found(results):
-    ways = does("CheatingSimulator", ["nothing"]) + does("CheatingSimulator", cheating.Ghosts)
-    settings = {"planner": "./cheating.py:Careless", "dispatcher": "all_at_once", "metrics": ["execution"]}
+    ways = does("CheatingSimulator", ["nothing"]) + does("CheatingSimulator", cheating_drivers.Ghosts)
+    settings = {"planner": "./cheating_planners.py:Careless", "dispatcher": "all_at_once", "metrics": ["execution"]}
     honest, *ghosts = results("ghosts", robots=6, **settings, matrix={"simulator": ways})
     assert honest["metrics"]["execution.robot_contacts"] > 0
     for ghost in ghosts:
@@ -145,12 +148,12 @@ def test_robots_that_pass_through_one_another_are_found(results):
 def test_crowds_and_formats_and_metrics_that_cheat_gain_nothing(results):
     common = {"simulator": "kinematic", "metrics": ["planning", "execution"]}
     (honest,) = results("honest", **common)
-    (formats,) = results("formats", **common, export=["./cheating.py:CheatingFormat"])
+    (formats,) = results("formats", **common, export=["./cheating_drivers.py:CheatingFormat"])
     assert not gains(formats, honest)
     crowds = [[block] for block in does("CheatingCrowd", ["nothing", "patches"])]
     people, patched = results("crowds", **common, matrix={"crowds": crowds})
     assert not gains(patched, people)
-    metrics = ["./cheating.py:CheatingMetric", "./cheating.py:ForgingMetric", *common["metrics"]]
+    metrics = ["./cheating_drivers.py:CheatingMetric", "./cheating_drivers.py:ForgingMetric", *common["metrics"]]
     (measured,) = results("metrics", **{**common, "metrics": metrics})
     own = {key: measured["metrics"].pop(key) for key in ("CheatingMetric.own", "ForgingMetric.own")}
     assert own == {"CheatingMetric.own": 1.0, "ForgingMetric.own": None}

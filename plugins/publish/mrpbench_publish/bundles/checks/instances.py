@@ -51,7 +51,7 @@ def recording_faults(
 def measured_faults(
     parcel: dict[str, Any], facts: dict[str, Any], number: int, record: dict[str, Any], file: str, trusted: bool
 ) -> list[str]:
-    """Return how a record contradicts a metric of others, by its number in the configuration; see `recording_faults`."""
+    """Return how a record contradicts a metric of others, by its number; see `recording_faults`."""
     asked = Asked.of_message({**facts["asked"], "run_id": record["run_id"]})
 
     def faults(recording: Recording) -> Iterator[str]:
@@ -106,8 +106,8 @@ def _faults(
         return
     asked = Asked.of_message({**facts["asked"], "run_id": record["run_id"]})
     of_others = {metric["number"] for metric in facts["others_metrics"]}
-    metrics = _metrics(parcel, [number for number in range(len(parcel["config"]["metrics"])) if number not in of_others])
-    verdict = judge(asked, recording, recording.instance_name, metrics, _said(record))
+    ours = [number for number in range(len(parcel["config"]["metrics"])) if number not in of_others]
+    verdict = judge(asked, recording, recording.instance_name, _metrics(parcel, ours), _said(record))
     status = RunStatus.SUCCEEDED if verdict.ending is None else verdict.ending.status
     if status != record["status"]:
         why = "" if verdict.ending is None else f": {verdict.ending.message}"
