@@ -165,7 +165,7 @@ ASKED = Asked(
 def use_recording(kept: Recording) -> None:
     """Show and judge a recording, and write it as a bag."""
     write_page(kept, example()[0], kept.file.parent / "page.html", columns={}, planner="example")
-    judge(ASKED, kept, {"execution": execution.Execution()}, None)
+    judge(ASKED, kept, kept.instance_name, {"execution": execution.Execution()}, None)
     session = Rosbag2(topics=("/robot_*", "/tf*")).open(kept.first_context(), kept.file.parent / "bag")
     try:
         for chunk in kept.chunks():

@@ -9,6 +9,7 @@ import numpy as np
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.checking.recording import LARGEST
 from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.execution.evaluation import Evaluation
@@ -75,12 +76,13 @@ class FleetControllerSession:
             try:
                 ahead, turn = command
                 twist[row] = float(ahead), float(turn)
-            except (TypeError, ValueError):
-                expected = "instead of (speed, turn rate) or None"
+            except (TypeError, ValueError, OverflowError):
                 raise BrokenContractError(
-                    f"the controller {self._name} returned {command!r} for robot {robot} {expected}"
+                    f"the controller {self._name} returned for robot {robot} something other than (speed, turn rate) "
+                    "in 64 bits, or None",
+                    "controller",
                 ) from None
-            if not np.isfinite(twist[row]).all():
+            if not (np.abs(twist[row]) <= LARGEST).all():
                 raise BrokenContractError(
                     f"the controller {self._name} returned {command!r} for robot {robot}", "controller"
                 )

@@ -10,6 +10,8 @@ from mrpbench_core.model.planning.plan import Path, Paths
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.visits import visited_goals
 
+LATEST = 2**40
+"""The last tick of a path, so that sums of ticks have 64 bits."""
 Faults = Iterator[tuple[int, str]]
 """Robots and what is wrong with their paths; of a robot the first counts."""
 
@@ -85,6 +87,8 @@ def _of_times(problem: Problem, segments: Segments) -> Faults:
         yield int(robots[row]), f"segment {index[row] + 1} does not begin when segment {index[row]} ends"
     for row in np.flatnonzero(leave < enter).tolist():
         yield int(robots[row]), f"segment {index[row]} ends before it begins"
+    for row in np.flatnonzero(leave > LATEST).tolist():
+        yield int(robots[row]), f"segment {index[row]} ends at tick {leave[row]}, later than {LATEST}"
 
 
 def _of_moves(problem: Problem, segments: Segments) -> Faults:

@@ -1,6 +1,7 @@
 """Makes the record of a run from its verdict and the claims of its process."""
 
 from collections.abc import Mapping
+from contextlib import closing
 from typing import Any
 
 import attrs
@@ -8,15 +9,19 @@ import attrs
 from mrpbench_core.api.metric import Metric
 from mrpbench_core.engine.drive.drive import Claims
 from mrpbench_core.engine.record import RunError, RunRecord
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.printing import printable
 from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.referee.asked import Asked
 from mrpbench_core.referee.measuring import Measured
-from mrpbench_core.referee.verdict import Ending, Verdict, judge
+from mrpbench_core.referee.verdict import Ending, Verdict, broken, judge
 from mrpbench_core.store.instances import InstanceFolder
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.run_files import seal
+
+UNRECORDED = RunStatus.SKIPPED, RunStatus.CONTRACT_BROKEN
+"""How a run without a recording can have ended."""
 
 
 @attrs.frozen(kw_only=True)
@@ -59,16 +64,23 @@ def record_of(
         timing=prepared.timing | claims.timing,
         unexported=claims.unexported,
         unarrived=claims.unarrived,
-        true_poses=claims.true_poses,
     )
     verdict = Verdict(ending=claims.ending)
     if claims.recorded:
-        recording = Recording(paths.recording, instances)
         try:
-            verdict = judge(asked, recording, metrics, claims.ending)
-            record.executed = asked.executes and "time" in recording.channels
-        finally:
-            recording.close()
+            recording = Recording(paths.recording, instances)
+        except InputError as error:
+            verdict = broken(f"the recording was damaged: {error.message}")
+        else:
+            with closing(recording):
+                verdict = judge(asked, recording, prepared.instance, metrics, claims.ending)
+                record.executed = asked.executes and "time" in recording.channels
+    else:
+        paths.recording.unlink(missing_ok=True)  # which has no verdict
+        if claims.ending is None or claims.ending.status not in UNRECORDED:
+            verdict = broken("nothing was recorded")
+    if record.executed:
+        record.true_poses = asked.true_poses
     record.plan, record.metrics, record.unmeasured = verdict.plan, verdict.metrics, verdict.unmeasured
     end(record, verdict.ending)
     return record

@@ -34,6 +34,8 @@ class Asked:
     """Standard deviation of the relative error of speeds."""
     apart: bool
     """Movers and robots do not touch one another."""
+    true_poses: str | None = None
+    """The localizer that `grant_truth` gives the true poses."""
     titles: Mapping[str, str] = attrs.field(factory=dict)
     """Name and origin of the component of each kind, such as `simulator 'planar' of mrpbench-standard 0.2`."""
 

@@ -52,20 +52,25 @@ class Verdict:
     unmeasured: dict[str, str] = attrs.field(factory=dict)
 
 
-def judge(asked: Asked, recording: Recording, metrics: Mapping[str, Metric], said: Ending | None) -> Verdict:
+def judge(
+    asked: Asked, recording: Recording, instance_name: str | None, metrics: Mapping[str, Metric], said: Ending | None
+) -> Verdict:
     """Return the verdict on a run.
 
     Args:
         asked: of the run.
-        recording: of the run, with the name of its instance.
+        recording: of the run.
+        instance_name: of the instance that was made for the run; None: the recording holds it.
         metrics: to measure.
         said: how the run ended as its own process says; gives the words where the referee agrees.
     """
+    if recording.instance_name != instance_name:
+        return broken("the recording has another instance than the run")
     try:
         recorded, instance = recording.recorded_run(), recording.instance()
         for name in ("run_id", "latency", "goal_tolerance", "plan_filter", "period"):
             if getattr(recorded, name) != getattr(asked, name):
-                return _broken(f"the recording has another {name} than the configuration")
+                return broken(f"the recording has another {name} than the configuration")
         result, fault = judge_plan(asked.promises, instance.problem, recorded.claimed)
         if fault is not None:
             return Verdict(
@@ -90,7 +95,7 @@ def judge(asked: Asked, recording: Recording, metrics: Mapping[str, Metric], sai
             return Verdict(ending=ending, plan=summary)
         values, reasons = measure(metrics, run)
     except InputError as error:
-        return _broken(f"the recording was damaged: {error.message}")
+        return broken(f"the recording was damaged: {error.message}")
     return Verdict(ending=ending, plan=summary, metrics=values, unmeasured=reasons)
 
 
@@ -161,10 +166,6 @@ def _ending(status: RunStatus, stage: Stage, message: str) -> Ending:
     return Ending(status=status, stage=stage, message=message)
 
 
-def _invalid(fault: str, asked: Asked) -> Verdict:
-    ending = _ending(RunStatus.PLAN_INVALID, Stage.PLANNING, f"{fault} ({asked.title('planner')})")
-    return Verdict(ending=ending)
-
-
-def _broken(message: str) -> Verdict:
+def broken(message: str) -> Verdict:
+    """The verdict on a run whose recording cannot be judged."""
     return Verdict(ending=_ending(RunStatus.CONTRACT_BROKEN, Stage.METRICS, message))

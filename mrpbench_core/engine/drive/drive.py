@@ -3,6 +3,7 @@
 What this process says of the run is a claim: `mrpbench_core.referee` judges the recording in another one.
 """
 
+import math
 from collections.abc import Mapping
 from typing import Any, Self, cast
 
@@ -16,9 +17,9 @@ from mrpbench_core.engine.drive.discrete import execute_steps
 from mrpbench_core.engine.drive.execute import execute_plan
 from mrpbench_core.engine.drive.plan import LATE_S, budget_of, call_planner
 from mrpbench_core.engine.drive.tasks import places_of, start_stream
-from mrpbench_core.engine.execution.loop_inputs import granted_localizer
 from mrpbench_core.engine.execution.replanning import replanning_fault
 from mrpbench_core.engine.stage import RunEnded, RunInputs
+from mrpbench_core.files.codec import decode
 from mrpbench_core.files.printing import printable
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import Path as RobotPath
@@ -30,6 +31,7 @@ from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.referee.plans import Promises, judge_plan
 from mrpbench_core.referee.verdict import STATUS, Ending
+from mrpbench_core.store.instances import inlined_array
 from mrpbench_core.store.recording import RecordingWriter
 
 
@@ -45,8 +47,6 @@ class Claims:
     """The reason why an export failed, by its name."""
     unarrived: dict[str, str] = attrs.field(factory=dict)
     """Why robots did not arrive, by their names."""
-    true_poses: str | None = None
-    """The localizer that `grant_truth` gave the true poses."""
     timing: dict[str, Any] = attrs.field(factory=dict)
 
     def message(self) -> dict[str, Any]:
@@ -55,13 +55,18 @@ class Claims:
 
     @classmethod
     def of_message(cls, message: Mapping[str, Any]) -> Self:
-        """The claims that another process sent."""
-        ending = message["ending"]
-        if ending is not None:
-            ending = Ending(
-                status=RunStatus(ending["status"]), stage=Stage(ending["stage"]), message=str(ending["message"])
-            )
-        return cls(**{**message, "ending": ending})
+        """The claims that another process sent.
+
+        Raises:
+            ValueError: they have another form.
+        """
+        claims = decode(message, cls, inlined_array)
+        for name, value in claims.timing.items():
+            if isinstance(value, list) and name == "planning_history":
+                continue
+            if not isinstance(value, int | float) or not math.isfinite(value) or value < 0:
+                raise ValueError(f"the time {name!r:.40} is not a number of 0 or more")
+        return claims
 
 
 def drive(inputs: RunInputs, instance: Instance) -> Claims:
@@ -99,7 +104,6 @@ def _drive(inputs: RunInputs, instance: Instance, claims: Claims) -> None:
         if failure is not None:
             raise failure
         return
-    claims.true_poses = granted_localizer(config)
     if executes_runs:
         assert stream is not None
         failure, claims.unexported = execute_steps(inputs, context, stream)

@@ -30,12 +30,12 @@ from mrpbench_core.engine.run import ended_before, prepare
 from mrpbench_core.engine.stage import RunEnded, RunInputs
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.instance import Instance
-from mrpbench_core.model.runs.status import Stage
+from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.plugins.provenance import title
 from mrpbench_core.referee.asked import Asked
 from mrpbench_core.referee.measuring import measure
-from mrpbench_core.referee.verdict import finished_run
+from mrpbench_core.referee.verdict import Ending, finished_run
 from mrpbench_core.store.instances import InstanceFolder
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
@@ -137,7 +137,13 @@ def _judge(job: Job, channel: Channel, state: State) -> Answer:
     _announcer(channel)(Stage.METRICS, {})
     asked, paths = Asked.of_message({**job["facts"]["asked"], "run_id": job["run_id"]}), _paths(job)
     metrics = _metrics(job, state, {metric["number"] for metric in job["facts"]["others_metrics"]})
-    claims, prepared = Claims.of_message(job["claims"]), Prepared(**job["prepared"])
+    prepared = Prepared(**job["prepared"])
+    try:
+        claims = Claims.of_message(job["claims"])
+    except ValueError as error:
+        message = f"what the process of the run says of it has another form: {error}"
+        ending = Ending(status=RunStatus.CONTRACT_BROKEN, stage=Stage.METRICS, message=message)
+        claims = Claims(ending=ending)
     record = record_of(asked, prepared, claims, paths, metrics, state.folder(paths.instances))
     keep(record, paths, job["keep"])
     return {"record": jsonable(record.message())}

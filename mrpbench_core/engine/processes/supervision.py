@@ -35,6 +35,10 @@ TELLING_S = 5.0
 """Seconds that a fork server may take to tell that a killed process has ended, before it is killed too."""
 CLOSING_S = 1.0
 """Seconds from the end of a connection to the end of its process."""
+ANSWERS = {"prepare": ("prepared", "record"), "drive": ("claims",), "judge": ("record",), "measure": ("measured",)}
+"""The keys of the answers to each step, apart from failures."""
+FAILURES = frozenset({RunStatus.CONTRACT_BROKEN, RunStatus.OUT_OF_MEMORY, RunStatus.CRASHED})
+"""The statuses that a process may give the run instead of an answer."""
 OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP})
 """Signals that people and batch systems send, and that defects do not raise."""
 
@@ -54,6 +58,9 @@ class Supervision:
         self._invoker = invoker
         self._server = server
         self._servers = servers
+        self._began = self._stage_began = time.monotonic()
+        self._planning_s = 0.0
+        self._answers = ANSWERS.get(job.get("step", ""), ())
         self._monitor = LimitMonitor(job["wall_s"], job["memory_bytes"])
         self._next_sample = time.monotonic() + SAMPLING_S
         self._oom_before = oom_kills()
@@ -108,7 +115,10 @@ class Supervision:
         if not serves:
             status = self._server.wait()
         assert status is not None
-        return answer or self._died(status), serves
+        answer = answer or self._died(status)
+        if "claims" in answer:
+            answer["outside"] = {"run_wall_s": time.monotonic() - self._began, "planning_s": self._planning_s}
+        return answer, serves
 
     def _wait(self) -> set[int]:
         """Wait until something happens or is to be checked; return the descriptors that are ready."""
@@ -131,12 +141,20 @@ class Supervision:
             self._closing = time.monotonic() + CLOSING_S
         return None
 
+    def _note_planning(self) -> None:
+        """Count the time since the last stage began, if that is the first call of the planner."""
+        now = time.monotonic()
+        if self._monitor.stage == Stage.PLANNING:
+            self._planning_s += now - self._stage_began
+        self._stage_began = now
+
     def _take(self, message: Message) -> Message | None:
         """Take one message; return the answer that it is."""
         if "progress" in message:
             self._invoker.send(message)
             self._progressed = True
         elif "stage" in message:
+            self._note_planning()
             stage = Stage(message["stage"])
             self._monitor.enter(stage, message["at"], message.get("limit_s"), message.get("scenario_id"))
             if self._progressed:
@@ -145,8 +163,12 @@ class Supervision:
         elif "importing" in message:
             self._monitor.importing(message["importing"])
         elif "status" in message:
+            if message["status"] not in FAILURES:
+                raise ValueError(f"the status {message['status']!r:.40}")
             return self._failure(RunStatus(message["status"]), message["message"])
         else:
+            if self._answers and not any(key in message for key in (*self._answers, "mistake")):
+                raise ValueError("an answer to something else")
             if "record" in message:
                 RunRecord.of_message(message["record"])  # the invoker will read it
             return message

@@ -1,9 +1,9 @@
 """When robots arrive: the only definition, for statuses and metrics alike.
 
 A robot completes its path at the first sample at which it has completed the last move of the path; waits after that
-move do not count, because every new plan adds some to the paths of robots that have arrived. It arrives then, if it is
-at its goal at the end of the execution, rests there, and has come by its earlier goals in their order. Where these are
-and where the robot is, true poses say, not the navigator.
+move do not count, because every new plan adds some to the paths of robots that have arrived. It arrives at the first
+sample from then on at which it is at its goal, if it is there at the end of the execution, rests then, and has come by
+its earlier goals in their order. Where these are and where the robot is, true poses say, not the navigator.
 """
 
 from collections.abc import Sequence
@@ -28,12 +28,13 @@ def arrival_times(run: FinishedRun) -> Float:
     arrival = completion_times(time, reached, run.context.routes)
     if not len(time) or not all(run.has(name) for name in OWN):
         return arrival
-    context, truth = run.first_context(), run.channel("truth")
-    there = is_at_goal(context, truth[-1, :, :2], run.channel("level")[-1])
+    context, truth, level = run.first_context(), run.channel("truth"), run.channel("level")
+    near = is_at_goal(context, truth[..., :2], level)
+    stays = near[-1] & has_passed_goals(context, truth[..., :2], level)
     if run.has("command"):  # without physics robots stop at once
-        there &= (np.abs(run.channel("truth_twist")[-1]) < REST).all(axis=1)
-    there &= has_passed_goals(context, truth[..., :2], run.channel("level"))
-    return np.where(there, arrival, np.nan)
+        stays &= (np.abs(run.channel("truth_twist")[-1]) < REST).all(axis=1)
+    there = near & (time[:, None] >= arrival)
+    return np.where(there.any(axis=0) & stays, time[there.argmax(axis=0)], np.nan)
 
 
 def completion_times(time: Float, reached: Int32, routes: Sequence[Route]) -> Float:
@@ -43,12 +44,20 @@ def completion_times(time: Float, reached: Int32, routes: Sequence[Route]) -> Fl
 
 
 def is_at_goal(context: RunContext, place: Float, level: Int16) -> Bool:
-    """Tell bool[n] whether robots at `place` f8[n,2] on `level` i2[n] are within the tolerance of their last goals."""
-    there = np.ones(len(place), bool)
+    """Tell whether robots are within the tolerance of their last goals.
+
+    Args:
+        context: gives the goals.
+        place: f8[T,n,2] metres.
+        level: i2[T,n].
+
+    Returns:
+        bool[T,n].
+    """
+    there = np.ones(place.shape[:2], bool)
     for robot, goal in enumerate(last_goals(context)):
-        there[robot] = bool(
-            _distance(context.problem.roadmap, goal, place[robot], level[robot]) <= context.goal_tolerance
-        )
+        away = _distances(context.problem.roadmap, goal, place[:, robot], level[:, robot])
+        there[:, robot] = away <= context.goal_tolerance
     return there
 
 
@@ -93,10 +102,13 @@ def _near_line(context: RunContext, goal: GoalSet, place: Float, level: Int16) -
     return near
 
 
-def _distance(roadmap: Roadmap, goal: GoalSet, place: Float, level: int) -> float:
-    """Metres to the nearest vertex of a goal, inf if it has none on the level; 0 if any vertex will do."""
+def _distances(roadmap: Roadmap, goal: GoalSet, place: Float, level: Int16) -> Float:
+    """Metres f8[T] to the nearest vertex of a goal, inf if it has none on the level; 0 if any vertex will do."""
     vertices: Int = np.array(goal, np.int64)
+    nearest = np.full(len(place), np.inf)
     if len(vertices) in (0, len(roadmap.position)):
-        return 0.0
-    vertices = vertices[roadmap.level[vertices] == level]
-    return float(np.hypot(*(roadmap.position[vertices] - place).T).min(initial=np.inf))
+        return np.zeros(len(place))
+    for vertex in vertices.tolist():
+        away = np.hypot(*(place - roadmap.position[vertex]).T)
+        np.minimum(nearest, np.where(level == roadmap.level[vertex], away, np.inf), out=nearest)
+    return nearest

@@ -27,12 +27,13 @@ PROGRESS, CONTACTS = frozenset({"reached", "end"}), frozenset({"contact_time", "
 class Execution(Metric):
     """Measures the execution of a run, by our definitions and by those of the original MRP-Bench (`mrp_bench.*`).
 
-    A robot completes its path, and arrives, at the first sample at which it has completed the last move of the path;
-    waits after that move do not count. After replanning, the path is that of the last plan, which begins with all that
-    was driven before. A robot that has arrived, and that a new plan lets wait, therefore stays arrived. A robot that a
-    new plan sends away from its goal, to make way, arrives when it is back for the last time, as costs of paths count
-    in multi-agent path finding (Stern et al., SoCS 2019). All metrics use this definition. Where tasks keep coming,
-    no robot arrives: what counts arrivals is null, and the time before a robot arrives is that in which it has a task.
+    A robot completes its path at the first sample at which it has completed the last move of the path; waits after that
+    move do not count. It arrives at the first sample from then on at which it rests within the goal tolerance. After
+    replanning, the path is that of the last plan, which begins with all that was driven before. A robot that has
+    arrived, and that a new plan lets wait, therefore stays arrived. A robot that a new plan sends away from its goal,
+    to make way, arrives when it is back for the last time, as costs of paths count in multi-agent path finding (Stern
+    et al., SoCS 2019). All metrics use this definition. Where tasks keep coming, no robot arrives: what counts arrivals
+    is null, and the time before a robot arrives is that in which it has a task.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
@@ -41,7 +42,7 @@ class Execution(Metric):
             "duration_s",
             "s",
             "lower",
-            "time from the start until the last robot completed its path; null unless all robots did",
+            "time from the start until the last robot arrived; null unless all robots did",
             requires=PROGRESS,
             primary=True,
             drawn="profile",

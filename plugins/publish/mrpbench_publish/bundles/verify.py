@@ -17,7 +17,7 @@ from mrpbench_core.store.run_files import digest
 from mrpbench_core.version import __version__
 from mrpbench_publish.bundles.checks.bag import description_faults, file_faults, reference_faults
 from mrpbench_publish.bundles.checks.code import code_faults
-from mrpbench_publish.bundles.checks.instances import recording_faults, scenario_ids
+from mrpbench_publish.bundles.checks.instances import measured_faults, recording_faults, scenario_ids
 from mrpbench_publish.bundles.checks.records import (
     record_faults,
     scenario_faults,
@@ -178,8 +178,12 @@ def _recordings(bundle: Opened, records: Sequence[Stored], runs: dict[str, Study
         if stored.recording is None or not file.is_file():
             continue
         count += 1
+        run = runs[stored.run_id]
         try:
-            found = call_in_worker(recording_faults, runs[stored.run_id].parcel, stored.record, str(file))
+            found = call_in_worker(recording_faults, run.parcel, run.facts, stored.record, str(file))
+            for metric in run.facts["others_metrics"] if stored.record.get("metrics") else ():
+                given = run.parcel, run.facts, metric["number"], stored.record, str(file)
+                found += call_in_worker(measured_faults, *given)
         except CallFailedError as failure:
             found = [f"its recording cannot be checked: {failure}"]
         faults += [(stored.run_id, fault) for fault in found]
