@@ -1,6 +1,7 @@
 """Directives that write the reference of Python from its source.
 
-`{api-of} MODULE` writes the public classes and functions of a module, `{surface}` the names of `mrpbench_core.api` by topic.
+`{api-of} MODULE` writes the public classes and functions of a module, `{surface}` the names of `mrpbench_core.api`
+by topic.
 
 Types are those of the source (`Float`, not the union for which it stands), and docstrings are Markdown.
 """

@@ -29,6 +29,9 @@ GROUPS = {
 RENAMED = {"exporter": "format", "importer": "format"}
 """Kinds by their names in earlier releases, which are read until the next one."""
 
+GONE = {"plan_filter": "is of a kind that is an option now: write `plan_filter: mrp_bench_stairs` without a plugin"}
+"""Kinds of the last release that are none any more, and what the reader of an error does instead."""
+
 PREFIX = "mrpbench."
 HOOKS = "mrpbench.hooks"
 """Group of the lifecycle hooks, which are not components."""

@@ -41,6 +41,9 @@ from mrpbench_core.testing.suites.simulator import SimulatorConformance
 from mrpbench_core.testing.suites.task_source import TaskSourceConformance
 from mrpbench_core.testing.suites.world import WorldConformance
 
+ExporterConformance = ImporterConformance = FormatConformance
+"""The names of release 0.2, until the next release."""
+
 __all__ = [
     "SUITES",
     "AssignerConformance",
@@ -51,9 +54,11 @@ __all__ = [
     "DiscreteSimulatorConformance",
     "DispatcherConformance",
     "ExecutorConformance",
+    "ExporterConformance",
     "Fault",
     "FormatConformance",
     "HookConformance",
+    "ImporterConformance",
     "LocalizerConformance",
     "MetricConformance",
     "NavigatorConformance",
