@@ -4,9 +4,7 @@
 from mrpbench_core.api.component import Component as Component, between as between, option as option
 from mrpbench_core.api.contract import BrokenContractError as BrokenContractError
 from mrpbench_core.api.kinds import KINDS as KINDS
-from mrpbench_core.api.nav2 import parameter as parameter, settle as settle
 from mrpbench_core.files.errors import InputError as InputError
-from mrpbench_core.files.nav2 import Nav2Block as Nav2Block, nav2_block as nav2_block
 from mrpbench_core.files.text import read_text as read_text
 
 # Planners

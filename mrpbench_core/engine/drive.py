@@ -4,7 +4,7 @@ What this process says of the run is a claim: `mrpbench_core.referee` judges the
 """
 
 from collections.abc import Mapping
-from typing import Any, Self
+from typing import Any, Self, cast
 
 import attrs
 import numpy as np
@@ -99,7 +99,7 @@ def _drive(inputs: RunInputs, instance: Instance, claims: Claims) -> None:
             raise failure
         return
     claims.true_poses = granted_localizer(config)
-    if isinstance(config.simulator, DiscreteSimulator):
+    if config.simulator is not None and config.simulator.executes_runs:
         assert stream is not None
         failure, claims.unexported = execute_steps(inputs, context, stream)
     else:
@@ -132,8 +132,9 @@ def _stand(inputs: RunInputs, instance: Instance, stream: TaskStream) -> PlanRes
     """
     config, problem = inputs.config, instance.problem
     inputs.announce(Stage.PLANNING, {"limit_s": config.limits.planning})
-    if isinstance(config.simulator, DiscreteSimulator):
-        reason = config.simulator.skip(config.planner)
+    assert config.simulator is not None
+    if config.simulator.executes_runs:
+        reason = cast("DiscreteSimulator", config.simulator).skip(config.planner)
     else:
         asked = attrs.evolve(problem, features=problem.features | {Feature.COMMITMENTS})
         reason = config.planner.skip(asked) or config.planner.skip_tasks(problem, places_of(stream, instance))
@@ -154,11 +155,30 @@ def _checked(inputs: RunInputs, problem: Problem, result: PlanResult) -> tuple[P
         return result, RunEnded(RunStatus.PLAN_INVALID, Stage.PLANNING, fault)
     if result.plan is not None:
         return result, None
-    limit, spent = config.limits.planning, inputs.timing["planning_s"]
-    said = f"the planner ended with {result.status}"
-    if result.status == PlanStatus.TIMEOUT and spent > limit + LATE_S:
-        said = f"returned after {spent:.3f} s; the limit is {limit:g} s"
-    return result, RunEnded(STATUS[result.status], Stage.PLANNING, said)
+    return result, RunEnded(STATUS[result.status], Stage.PLANNING, _unsolved(inputs, problem, result))
+
+
+_BLAMES = {
+    PlanStatus.GAVE_UP: "gave up: it last found no path for",
+    PlanStatus.UNSOLVABLE: "proved that there is no plan, because of",
+}
+"""How a planner ended that names a robot."""
+
+
+def _unsolved(inputs: RunInputs, problem: Problem, result: PlanResult) -> str:
+    """Why there is no plan."""
+    limits, timing = inputs.config.limits, inputs.timing
+    if result.status == PlanStatus.TIMEOUT and timing["planning_s"] > limits.planning + LATE_S:
+        return f"returned after {timing['planning_s']:.3f} s; the limit is {limits.planning:g} s"
+    if result.status == PlanStatus.OUT_OF_MEMORY:
+        held, allowed = timing["planning_peak_bytes"] / 2**20, limits.memory / 2**20
+        return f"the planner added {held:.0f} MiB; the option limits.memory allows the whole run {allowed:.0f} MiB"
+    robot = int(result.statistics.get("failed_robot", -1))
+    said = _BLAMES.get(result.status)
+    if said is not None and 0 <= robot < len(problem):
+        x, y = problem.roadmap.position[problem.start[robot]]
+        return f"the planner {said} robot {robot}, which starts at ({x:.1f}, {y:.1f})"
+    return f"the planner ended with {result.status}"
 
 
 def _context(inputs: RunInputs, instance: Instance, result: PlanResult, *, executes: bool) -> RunContext:

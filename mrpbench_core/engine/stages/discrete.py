@@ -2,6 +2,7 @@
 
 import math
 import time
+from typing import cast
 
 import numpy as np
 
@@ -22,8 +23,7 @@ from mrpbench_core.store.recording import RecordingWriter
 def execute_steps(inputs: RunInputs, context: RunContext, stream: TaskStream) -> tuple[RunEnded | None, dict[str, str]]:
     """Execute the tasks of a run; returns what `execute_plan` returns."""
     config, timing = inputs.config, inputs.timing
-    simulator = config.simulator
-    assert isinstance(simulator, DiscreteSimulator)
+    simulator = cast("DiscreteSimulator", config.simulator)
     inputs.announce(Stage.EXECUTION, {})
     limit = min(config.replanning.budget or math.inf, config.limits.planning)
     run = DiscreteRun(
