@@ -3,6 +3,7 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_tests.variant import variant
 
 from mrpbench_core.api import (
     Planner,
@@ -14,7 +15,6 @@ from mrpbench_core.testing import failed_checks, suite_for
 from mrpbench_core.testing.drawing import problem
 from mrpbench_core.testing.faults import Fault
 from mrpbench_core.testing.oracles.planner_call import call
-from mrpbench_core.testing.variant import variant
 
 
 @attrs.frozen(kw_only=True)

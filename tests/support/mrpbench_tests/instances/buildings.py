@@ -10,7 +10,7 @@ import attrs
 import numpy as np
 import yaml
 
-from mrpbench_core.testing.drawn_floor import DrawnFloor, Point
+from mrpbench_tests.drawn_floor import DrawnFloor, Point
 
 Random = np.random.Generator
 

@@ -16,7 +16,7 @@ from mrpbench_core.model.common.arrays import Bool, Int, Int32
 from mrpbench_core.model.planning.plan import Budget, Paths, Plan
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.testing.fixtures.room import fleet
-from mrpbench_core.testing.oracles.task_ledger import TaskLedger
+from mrpbench_tests.oracles.task_ledger import TaskLedger
 
 BUDGET = Budget(wall_s=10.0, memory_bytes=1 << 30, iterations=10)
 

@@ -16,7 +16,7 @@ from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
 from mrpbench_core.testing.execution.drain import Replan, drain
 from mrpbench_core.testing.execution.resource_manager import ResourceManager
 from mrpbench_core.testing.faults import require
-from mrpbench_core.testing.instances.random_plans import random_plan, random_plan_with_resources, wander
+from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources, wander
 
 
 class Ended(NamedTuple):

@@ -13,7 +13,7 @@ from mrpbench_core.model.common.arrays import Bool, Int
 from mrpbench_core.model.common.geometry import segment_distance
 from mrpbench_core.model.planning.conflicts import TOLERANCE
 from mrpbench_core.model.planning.problem import Feature, Problem
-from mrpbench_core.testing.execution.repeated_executor import NOT_YET, RepeatedExecutor
+from mrpbench_tests.execution.repeated_executor import NOT_YET, RepeatedExecutor
 
 _AT_ONCE = 1 << 21
 """Pairs of uses that are compared at once, counted in all executions."""

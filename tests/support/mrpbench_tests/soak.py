@@ -12,9 +12,9 @@ import numpy as np
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.testing.instances.kinds import Draw
-from mrpbench_core.testing.instances.random_problems import Random
-from mrpbench_core.testing.oracles.judge import answer_faults, changes, contradictions
+from mrpbench_tests.instances.kinds import Draw
+from mrpbench_tests.instances.random_problems import Random
+from mrpbench_tests.oracles.judge import answer_faults, changes, contradictions
 
 BUDGET = Budget(wall_s=0.5, memory_bytes=1 << 30)
 SHORT = attrs.evolve(BUDGET, wall_s=0.02)

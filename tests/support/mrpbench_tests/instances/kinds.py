@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.testing.instances.random_problems import (
+from mrpbench_tests.instances.random_problems import (
     Random,
     random_building_problem,
     random_corridor_problem,
@@ -13,7 +13,7 @@ from mrpbench_core.testing.instances.random_problems import (
     random_narrow_problem,
     random_rules,
 )
-from mrpbench_core.testing.instances.variations import with_releases, with_resources
+from mrpbench_tests.instances.variations import with_releases, with_resources
 
 Draw = Callable[[Random], Problem]
 
