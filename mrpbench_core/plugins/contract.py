@@ -9,11 +9,8 @@ import attrs
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.format import Format, ReadableFormat, WritableFormat
-from mrpbench_core.api.planner import Planner, Promise
 
 CORE = "mrpbench_core."
-FACTORS = {Promise.BOUNDED: ("suboptimality", "w"), Promise.ROBUST: ("robustness", "k")}
-"""The property that gives the factor of a promise, and the option that gave it in release 0.2."""
 
 
 def violation(cls: Any, base: type[Component]) -> str | None:
@@ -38,17 +35,6 @@ def violation(cls: Any, base: type[Component]) -> str | None:
         return (
             f"has annotated public names that are not options: {', '.join(strays)} (write `name: type = option(...)`)"
         )
-    return _missing_factor(cls) if issubclass(cls, Planner) else None
-
-
-def _missing_factor(cls: type[Planner]) -> str | None:
-    promises: Any = cls.promises  # of an external program a property, which follows from its options
-    for promise, (name, symbol) in FACTORS.items():
-        if isinstance(promises, frozenset) and promise in promises and getattr(cls, name) is getattr(Planner, name):
-            return (
-                f"promises {promise.value!r} but not by which factor: add the property `{name}`,"
-                f" e.g. `return self.{symbol}` (the option alone does not count any more)"
-            )
     return None
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from mrpbench_core.cli.check import make
-from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins import installed
 from mrpbench_core.plugins.kinds import GONE, HOOKS, RENAMED, singular
 from mrpbench_core.testing import failed_checks, suite_for
@@ -95,15 +95,16 @@ def test_a_plan_filter_is_refused_with_the_option_that_replaces_the_kind(found):
     )
 
 
-def test_a_bounded_planner_whose_factor_is_only_an_option_is_refused(found, tmp_path):
+def test_a_bounded_planner_whose_factor_is_only_an_option_is_told_what_to_add(found, tmp_path):
     name = found(next(folder for folder in WORKING if folder.name == "last_planner"))
     (module,) = (tmp_path / "site").glob("mrpbench_planners_last_planner/last_planner.py")
     text = module.read_text()
     bounded = text.replace("Promise.CONFLICT_FREE,", "Promise.CONFLICT_FREE, Promise.BOUNDED,")
     assert bounded != text
     module.write_text(bounded)
-    with pytest.raises(InputErrors, match="LastPlanner promises 'bounded' but not by which factor: add the property"):
-        make(name, [])
+    failed = failed_checks(suite_for(make(name, [])))
+    told = "planner: LastPlanner promises `bounded`, so it must override `suboptimality`"
+    assert failed["declares features and promises"] == told
 
 
 @pytest.mark.timeout(300)

@@ -25,6 +25,7 @@ ROUND_CURVE = (AnytimePoint(seconds=0.1, cost=2), AnytimePoint(seconds=0.2, cost
 @attrs.frozen(kw_only=True)
 class Optimal(Planner):
     promises: ClassVar[frozenset[Promise]] = frozenset(Promise) - {Promise.BOUNDED}
+    robustness: ClassVar[int] = 0
 
     answers: tuple[PlanResult, ...] = ()
     number: count = attrs.field(factory=count, eq=False, repr=False)
@@ -38,6 +39,10 @@ class Bounded(Optimal):
     promises: ClassVar[frozenset[Promise]] = frozenset(Promise) - {Promise.OPTIMAL}
 
     w: float = 1.5
+
+    @property
+    def suboptimality(self):
+        return self.w
 
 
 @attrs.frozen(kw_only=True)
