@@ -16,6 +16,7 @@ from typing import Any
 
 import numpy as np
 from movingai import PATIENCE, algorithm_of
+from mrpbench_tests.instances.buildings import random_building
 from problem_building import MEMORY, problem_of
 
 import mrpbench_core
@@ -28,7 +29,6 @@ from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.plan import Budget
 from mrpbench_core.model.runs.status import RunStatus
-from mrpbench_core.testing.instances.buildings import random_building
 
 FLEET = Fleet(robots=(load_robot("turtlebot3_burger"),))
 

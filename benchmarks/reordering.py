@@ -15,8 +15,7 @@ from pathlib import Path
 
 import numpy as np
 from mrpbench_native.mapf import reorder
-
-from mrpbench_core.testing.instances.switchable import read_situation
+from mrpbench_tests.instances.switchable import read_situation
 
 
 def main() -> None:

@@ -18,6 +18,8 @@ from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.worlds.world import Level, Vertex, World
 from mrpbench_core.plugins import installed
 
+collect_ignore = ["data"]
+
 
 @pytest.fixture
 def robot_model() -> RobotModel:

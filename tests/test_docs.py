@@ -67,7 +67,7 @@ def test_the_design_page_has_the_layers_of_the_contract(project):
 
 def test_the_contracts_know_every_package(project):
     packages = {file.parent.name for file in ROOT.glob("plugins/**/mrpbench_*/__init__.py")}
-    assert set(project["tool"]["mypy"]["packages"]) == packages | {"mrpbench_core", "mrpbench_native"}
+    assert set(project["tool"]["mypy"]["packages"]) == packages | {"mrpbench_core", "mrpbench_native", "mrpbench_tests"}
     linter = project["tool"]["importlinter"]
     assert set(linter["root_packages"]) == packages | {"mrpbench_core", "mrpbench_native"}
     rules = [it["source_modules"] for it in linter["contracts"] if it["type"] == "forbidden"]

@@ -1,4 +1,7 @@
-"""The directive `{api-of} MODULE` writes the public classes and functions of a module, from its source.
+"""Directives that write the reference of Python from its source.
+
+`{api-of} MODULE` writes the public classes and functions of a module, `{surface}` the names of `mrpbench_core.api`
+by topic.
 
 Types are those of the source (`Float`, not the union for which it stands), and docstrings are Markdown.
 """
@@ -12,6 +15,8 @@ from pathlib import Path
 
 from generated import Written, table
 from sphinx.application import Sphinx
+
+from mrpbench_core import api
 
 SECTION = re.compile(r"^(Args|Raises|Returns|Yields):\n((?:    .*\n?|\n)+)", re.MULTILINE)
 TITLES = {"Args": "Arguments", "Raises": "Errors", "Returns": "Returns", "Yields": "Yields"}
@@ -40,6 +45,32 @@ class Module(Written):
                 yield from class_(node)
             elif isinstance(node, Function):
                 yield from ("", f"#### {node.name}", *function(node))
+
+
+class Surface(Written):
+    """The names of `mrpbench_core.api`, from its stub."""
+
+    optional_arguments = 0
+
+    def lines(self) -> Iterator[str]:
+        """A table for each topic."""
+        stub = Path(api.__file__).with_suffix(".pyi")
+        self.env.note_dependency(str(stub))
+        _, *topics = re.split(r"^# (.+)\n", stub.read_text(encoding="utf-8"), flags=re.MULTILINE)
+        for topic, imports in zip(topics[::2], topics[1::2], strict=True):
+            names = [name.name for node in ast.parse(imports).body for name in node.names]  # type: ignore[attr-defined]
+            yield from ("", f"**{topic}**", "")
+            yield from table(
+                [{"name": name, "meaning": meaning_of(name)} for name in names], ("name", "meaning"), "name"
+            )
+
+
+def meaning_of(name: str) -> str:
+    """The first sentence of the docstring of a name of `mrpbench_core.api`; for an alias, what it stands for."""
+    found = getattr(api, name)
+    if not (inspect.isclass(found) or inspect.isroutine(found)):
+        return "" if isinstance(found, dict) else f"`{inspect.formatannotation(found)}`"
+    return (inspect.getdoc(found) or "").partition("\n\n")[0].replace("\n", " ")
 
 
 def class_(node: ast.ClassDef) -> Iterator[str]:
@@ -123,4 +154,5 @@ def markdown(docstring: str | None) -> str:
 def setup(app: Sphinx) -> dict[str, bool]:
     """Register the directive."""
     app.add_directive("api-of", Module)
+    app.add_directive("surface", Surface)
     return {"parallel_read_safe": True}

@@ -7,7 +7,7 @@ from typing import Any
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.installed import Provider, installed, unreadable
-from mrpbench_core.plugins.kinds import asked_kind
+from mrpbench_core.plugins.kinds import MAIN, asked_kind, in_order
 
 LOG = logging.getLogger(__name__)
 
@@ -32,12 +32,12 @@ def run(arguments: argparse.Namespace) -> int:
     if len(words) > 1:
         raise InputError(f"plugins {' '.join(words)}: expected one kind, or `show NAME`")
     found = list(installed())
+    kinds = in_order({provider.kind for provider in found})
     if words:
-        kind = asked_kind(words[0])
-        found = [provider for provider in found if provider.kind == kind]
-        if not found:
-            kinds = dict.fromkeys(provider.kind for provider in installed())
+        if (kind := asked_kind(words[0])) not in kinds:
             raise InputError(f"no plugin has the kind {words[0]!r}", hint="there are " + ", ".join(kinds))
+        kinds = [kind]
+    found = [provider for kind in kinds for provider in found if provider.kind == kind]
     for folder, fault in unreadable().items():
         LOG.warning("%s %s", folder, fault)
     for advice in filter(None, (provider.advice for provider in found)):
@@ -45,8 +45,11 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.json:
         print_json([_facts(provider) for provider in found])
         return 0
-    rows = [[entry.kind, entry.name, entry.distribution, entry.version, entry.problem or ""] for entry in found]
-    print_table(["kind", "name", "distribution", "version", ""], rows)
+    main, more = ([it for it in found if (it.kind in MAIN) == wanted] for wanted in (True, False))
+    for part, title in ((main, ""), (more, "\nMore" if main else "")):
+        if part:
+            rows = [[it.kind, it.name, it.distribution, it.version, it.problem or ""] for it in part]
+            print_table(["kind", "name", "distribution", "version", ""], rows, title)
     return 0
 
 

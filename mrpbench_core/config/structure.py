@@ -128,7 +128,7 @@ class Structure:
         if origin in (typing.Union, UnionType):
             return union(self._value, item, expected, key)
         if origin is Literal:
-            return literal(item.value, kind)
+            return literal(_of_plugin(item, key) if key == "plan_filter" else item.value, kind)
         if origin in (tuple, frozenset, set):
             return sequence(self._value, item, expected, key)
         if origin in (dict, Mapping) or kind in (dict, Mapping):
@@ -293,6 +293,15 @@ def structure_component(base: type[C], item: Item, key: str, folder: Path) -> C:
     if advice := advice_of(type(component)):
         LOG.warning(advice)
     return component
+
+
+def _of_plugin(item: Item, key: str) -> Any:
+    """The value of an option that was a plugin in release 0.2, and may be written so until the next release."""
+    if not isinstance(item.value, dict) or item.value.keys() != {"plugin"}:
+        return item.value
+    name = item.value["plugin"].value
+    LOG.warning("%s", item.location.error(key, f"is an option now: write `{key}: {name}`"))
+    return name
 
 
 def _join(key: str, name: str) -> str:

@@ -17,7 +17,7 @@ from packaging.requirements import InvalidRequirement, Requirement
 
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.plugins.importing import is_interrupt, watched
-from mrpbench_core.plugins.kinds import COMMANDS, PREFIX, RENAMED, group_of, kind_of
+from mrpbench_core.plugins.kinds import COMMANDS, GONE, PREFIX, RENAMED, group_of, kind_of
 
 CORE = "mrpbench-core"
 _NAMES_CORE = re.compile(r"\s*mrpbench[-_.]+core(?![\w.-]*\w)", re.IGNORECASE).match
@@ -144,9 +144,9 @@ def _scan(_: tuple[str, ...]) -> dict[str, tuple[Provider, ...]]:
         if (owner := entry.dist) is not None:
             if id(owner) not in owners:  # a distribution may offer many plugins
                 owners[id(owner)] = _facts(owner)
-            provider = Provider(
-                name=entry.name, kind=kind_of(entry.group), group=entry.group, value=entry.value, **owners[id(owner)]
-            )
+            facts, kind = owners[id(owner)], kind_of(entry.group)
+            facts = facts | {"problem": facts["problem"] or GONE.get(kind)}
+            provider = Provider(name=entry.name, kind=kind, group=entry.group, value=entry.value, **facts)
             found.setdefault(entry.group, set()).add(provider)
 
     def order(provider: Provider) -> tuple[str, str, str]:
@@ -190,5 +190,5 @@ def incompatibility(requires: Iterable[str]) -> str | None:
         if applies:
             version = metadata.version(CORE)
             if not requirement.specifier.contains(version, prereleases=True):
-                return f"needs {CORE}{requirement.specifier}, this is {version}"
+                return f"needs {CORE}{requirement.specifier}, this is {version}: install versions that fit"
     return None

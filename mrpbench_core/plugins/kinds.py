@@ -4,6 +4,7 @@ A test compares this table with `mrpbench_core.api.KINDS`.
 """
 
 import logging
+from collections.abc import Iterable
 
 LOG = logging.getLogger(__name__)
 
@@ -26,8 +27,14 @@ GROUPS = {
 }
 """Entry-point group of each kind."""
 
+MAIN = ("planner", "assigner", "simulator", "controller", "metric")
+"""The kinds that most people write, with which lists begin."""
+
 RENAMED = {"exporter": "format", "importer": "format"}
 """Kinds by their names in earlier releases, which are read until the next one."""
+
+GONE = {"plan_filter": "is of a kind that is an option now: write `plan_filter: mrp_bench_stairs` without a plugin"}
+"""Kinds of the last release that are none any more, and what the reader of an error does instead."""
 
 PREFIX = "mrpbench."
 HOOKS = "mrpbench.hooks"
@@ -46,6 +53,11 @@ def group_of(kind: str) -> str:
     """Return the group of a kind, given in singular or plural."""
     word = singular(kind)
     return PREFIX + (f"{word[:-1]}ies" if word.endswith("y") else f"{word}s")
+
+
+def in_order(kinds: Iterable[str]) -> list[str]:
+    """Return the main kinds, and then the others in alphabetical order."""
+    return sorted(kinds, key=lambda kind: (MAIN.index(kind) if kind in MAIN else len(MAIN), kind))
 
 
 def singular(word: str) -> str:

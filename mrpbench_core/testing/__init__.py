@@ -11,11 +11,9 @@ In pytest, subclass the suite and return your component from `make`:
 `mrpbench check NAME` runs the same checks without pytest. For tests of your own:
 
 - `strategies`: Hypothesis strategies for roadmaps, problems, plans, fleets and scenarios;
-- `drawing`: problems drawn as text;
-- `instances`: named problems, and random ones drawn with NumPy;
-- `oracles`: the optimum by brute force, and a judge of planners' answers;
-- `execution`: robots that execute plans with delays, and grants of resources;
-- `fixtures`: worlds, robots and finished runs.
+- `drawing`: problems drawn as text.
+
+The other folders are what the suites are made of.
 """
 
 from mrpbench_core.testing.checks import Check, failed_checks, run_check, run_checks
@@ -41,6 +39,9 @@ from mrpbench_core.testing.suites.simulator import SimulatorConformance
 from mrpbench_core.testing.suites.task_source import TaskSourceConformance
 from mrpbench_core.testing.suites.world import WorldConformance
 
+ExporterConformance = ImporterConformance = FormatConformance
+"""The names of release 0.2, until the next release."""
+
 __all__ = [
     "SUITES",
     "AssignerConformance",
@@ -51,9 +52,11 @@ __all__ = [
     "DiscreteSimulatorConformance",
     "DispatcherConformance",
     "ExecutorConformance",
+    "ExporterConformance",
     "Fault",
     "FormatConformance",
     "HookConformance",
+    "ImporterConformance",
     "LocalizerConformance",
     "MetricConformance",
     "NavigatorConformance",

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from mrpbench_dispatchers_reordering import Sadg
 from mrpbench_dispatchers_reordering.alternative_graph import sum_of_arrivals
 from mrpbench_native.mapf import open_orders, reorder
-
-from mrpbench_core.testing.instances.switchable import Switchable, read_situation
+from mrpbench_tests.instances.switchable import Switchable, read_situation
 
 SITUATIONS = Path(__file__).parents[3] / "shared" / "data" / "stpg" / "situations.zip"
 OPTIMA = {

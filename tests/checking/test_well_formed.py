@@ -6,9 +6,9 @@ import attrs
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.instances.problems import grid_of, problem_on
 
 from mrpbench_core.checking.well_formed import ill_formed
-from mrpbench_core.testing.instances.problems import grid_of, problem_on
 
 
 def ways_around(road, endpoints):

@@ -106,7 +106,7 @@ def test_nothing_is_overwritten(mrpbench, tmp_path):
     ("words", "line"),
     [
         (["planer", "mine"], "there is no template for a 'planer' (did you mean 'planner'?)"),
-        (["qqq", "mine"], "there is no template for a 'qqq' (there are assigner, "),
+        (["qqq", "mine"], "there is no template for a 'qqq' (there are planner, assigner, "),
         (["planner", "Mine"], "'Mine' is not a name"),
         (["planner", "3d"], "'3d' is not a name"),
         (["planner", "../mine"], "'../mine' is not a name"),

@@ -15,6 +15,14 @@ def test_everything_installed_is_listed_with_its_distribution(mrpbench):
     assert "lanes" in mrpbench("plugins", "roadmaps")[1]
 
 
+def test_the_kinds_that_most_people_write_come_first(mrpbench):
+    main, more = mrpbench("plugins")[1].split("\nMore\n")
+    kinds = [[line.split()[0] for line in part.splitlines()[1:]] for part in (main, more)]
+    assert list(dict.fromkeys(kinds[0])) == ["planner", "assigner", "simulator", "controller", "metric"]
+    assert kinds[1] == sorted(kinds[1])
+    assert "More" not in mrpbench("plugins", "world")[1]
+
+
 def test_options_are_shown_with_default_unit_and_help(mrpbench):
     facts = json.loads(mrpbench("plugins", "show", "lanes", "--json")[1])
     assert (facts["kind"], facts["distribution"]) == ("roadmap", "mrpbench-core")

@@ -6,14 +6,12 @@ from mrpbench_core.config.study import load_study
 from mrpbench_core.files.errors import InputErrors
 
 CODE = """
+from mrpbench_core.api import *
 import enum
 from pathlib import Path
 from typing import ClassVar, Literal
 import attrs
 from attrs import validators
-from mrpbench_core.api import *
-from mrpbench_core.api import Component
-from mrpbench_core.model.planning.problem import Feature
 
 def fill(cls):
     "Make a class concrete: configuration never calls the methods."

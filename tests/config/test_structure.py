@@ -199,6 +199,15 @@ def test_a_format_of_an_earlier_release_gives_one_note(study, errors, install):
     assert line.endswith("no format is called 'table' (`mrpbench plugins` lists what is installed: csv, rosbag2)")
 
 
+def test_a_plan_filter_may_be_written_as_the_plugin_that_it_was(study, errors, caplog):
+    runs = study(BASE + "matrix: {seed: 0..3}\nplan_filter: {plugin: mrp_bench_stairs}").runs
+    assert {run.config.plan_filter for run in runs} == {"mrp_bench_stairs"}
+    (note,) = caplog.messages
+    assert note.endswith("plan_filter: is an option now: write `plan_filter: mrp_bench_stairs`")
+    (line,) = errors(BASE + "plan_filter: ./mine.py:Mine")
+    assert line.endswith("plan_filter: './mine.py:Mine' is not one of none, mrp_bench_stairs")
+
+
 def test_a_metric_is_not_called_like_a_part_of_records(errors, tmp_path):
     (tmp_path / "mine.py").write_text(
         "import attrs\nfrom mrpbench_core.api import Column, Metric\n"

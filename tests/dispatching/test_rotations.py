@@ -3,12 +3,12 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_tests.execution.rings import ring_problem, rotate
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.builtin.navigators.rotations import LEAD, OFFSET
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
-from mrpbench_core.testing.execution.rings import ring_problem, rotate
 
 CELL = 0.4
 """metres, the default of grids: about the smallest cells on which `group_margin` lets a turtlebot3_burger rotate."""

@@ -5,6 +5,10 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.execution.drawn_executions import drained
+from mrpbench_tests.execution.meetings import meetings
+from mrpbench_tests.execution.repeated_executor import NOT_YET, RepeatedExecutor
+from mrpbench_tests.instances.random_plans import random_plan
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
@@ -14,10 +18,6 @@ from mrpbench_core.engine.execution.delays import DrawnDelays
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.testing.drawing import build
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
-from mrpbench_core.testing.execution.drawn_executions import drained
-from mrpbench_core.testing.execution.meetings import meetings
-from mrpbench_core.testing.execution.repeated_executor import NOT_YET, RepeatedExecutor
-from mrpbench_core.testing.instances.random_plans import random_plan
 from mrpbench_core.testing.instances.roadmaps import path_through, two_way_grid
 
 optimize = pytest.importorskip("scipy.optimize")

@@ -3,6 +3,8 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_tests.execution.task_steps import TaskSteps, until_done
+from mrpbench_tests.instances.problems import grid_of, problem_on
 
 from mrpbench_core.builtin.assigners.insertion import Insertion
 from mrpbench_core.builtin.task_sources.listed import ListedStream
@@ -12,8 +14,6 @@ from mrpbench_core.engine.run import execute
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
-from mrpbench_core.testing.execution.task_steps import TaskSteps, until_done
-from mrpbench_core.testing.instances.problems import grid_of, problem_on
 
 prioritized = pytest.importorskip("mrpbench_planners_mapf.prioritized")
 BATCH = """\

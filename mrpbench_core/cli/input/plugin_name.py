@@ -73,6 +73,8 @@ def _own_kind(kind: str, name: str) -> type[Component]:
     """Return the class of a kind that a plugin defines."""
     for provider in installed():
         if provider.kind == kind and provider.name == name.partition("@")[0]:
+            if provider.problem:
+                raise InputError(f"{kind} {provider.name!r} of {provider.origin} {provider.problem}")
             cls = load(provider)
             if isinstance(cls, type) and issubclass(cls, Component):
                 return kind_class(cls)

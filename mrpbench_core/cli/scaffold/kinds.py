@@ -6,6 +6,8 @@ from importlib.resources.abc import Traversable
 
 import attrs
 
+from mrpbench_core.plugins.kinds import in_order
+
 TEMPLATES: Traversable = resources.files("mrpbench_core.cli.scaffold").joinpath("templates")
 _IN_CONFIGURATION = "In a configuration: `$kind: {plugin: $name$yaml}`."
 
@@ -62,8 +64,8 @@ FORMS: Mapping[str, Kind] = {
 
 
 def kinds() -> list[str]:
-    """Return the kinds that have a template."""
-    return sorted(file.name.removesuffix(".py.txt") for file in TEMPLATES.joinpath("kinds").iterdir())
+    """Return the kinds that have a template, the main ones first."""
+    return in_order(file.name.removesuffix(".py.txt") for file in TEMPLATES.joinpath("kinds").iterdir())
 
 
 def facts_of(kind: str, form: str) -> Kind:

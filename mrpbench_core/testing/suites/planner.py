@@ -11,6 +11,7 @@ from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.engine.drive.plan import LATE_S, cpu_s
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
+from mrpbench_core.referee.plans import Promises
 from mrpbench_core.testing.drawing import build, grid
 from mrpbench_core.testing.faults import Fault, Skip, require
 from mrpbench_core.testing.instances.named import choices, solvable, unsolvable
@@ -46,6 +47,7 @@ class PlannerConformance(ComponentConformance):
                 right,
                 f"{name} is {declared!r} instead of a frozenset of {kind.__name__}",
             )
+        Promises.of(planner)
 
     def test_skips_features_that_it_does_not_support(self) -> None:
         planner = self.make()
@@ -179,13 +181,12 @@ class PlannerConformance(ComponentConformance):
 
     def test_is_within_its_bound(self) -> None:
         planner = self.make()
-        if Promise.BOUNDED not in planner.promises:
+        if Promise.BOUNDED not in planner.kept_promises:
             raise Skip("it does not promise to be bounded")
-        w = getattr(planner, "w", None)
-        require(isinstance(w, int | float), "promises to be bounded, but has no option `w`")
+        w = planner.suboptimality
         for name, problem, optimum in compared(planner):
             result = call(planner, problem)
-            if result.plan is not None and w is not None:
+            if result.plan is not None:
                 cost, bound = result.plan.sum_of_costs, result.lower_bound
                 require(cost <= w * bound + 1e-9, f"{name}: costs {cost}, more than {w:g} times its bound {bound:g}")
                 require(

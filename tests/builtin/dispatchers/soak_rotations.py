@@ -10,10 +10,10 @@ from mrpbench_controllers_dwb import Dwb
 from mrpbench_controllers_pure_pursuit import PurePursuit
 from mrpbench_simulators_planar import Planar
 from mrpbench_simulators_pybullet import PyBullet
+from mrpbench_tests.execution.rings import rotate
 
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
-from mrpbench_core.testing.execution.rings import rotate
 
 SIMULATORS = {
     "kinematic": (Kinematic, 20),

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.instances.random_plans import random_lanes, random_plan, random_starts, wander
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
@@ -18,7 +19,6 @@ from mrpbench_core.model.planning.plan import Budget, Plan
 from mrpbench_core.model.planning.problem import Feature, Rules, features_of
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
 from mrpbench_core.testing.execution.drain import drain
-from mrpbench_core.testing.instances.random_plans import random_lanes, random_plan, random_starts, wander
 
 SEEDS = st.integers(0, 2**32 - 1)
 

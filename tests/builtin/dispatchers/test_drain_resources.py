@@ -7,6 +7,13 @@ import numpy as np
 import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.instances.random_plans import (
+    random_lanes,
+    random_plan_with_resources,
+    random_starts,
+    wander,
+    with_random_resources,
+)
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
@@ -16,13 +23,6 @@ from mrpbench_core.model.planning.problem import Rules, features_of
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
 from mrpbench_core.testing.execution.drain import drain
 from mrpbench_core.testing.execution.resource_manager import ResourceManager
-from mrpbench_core.testing.instances.random_plans import (
-    random_lanes,
-    random_plan_with_resources,
-    random_starts,
-    wander,
-    with_random_resources,
-)
 
 SEEDS = st.integers(0, 2**32 - 1)
 

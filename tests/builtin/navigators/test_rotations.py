@@ -3,6 +3,7 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_tests.execution.rings import ring_problem
 
 from mrpbench_core.builtin.navigators.rotations import FACING, LEAD, OFFSET
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
@@ -11,7 +12,6 @@ from mrpbench_core.model.execution.observation import Estimate, FleetObservation
 from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.model.worlds.world import Level, World
-from mrpbench_core.testing.execution.rings import ring_problem
 
 PERIOD, CELL = 0.05, 0.4
 

@@ -3,6 +3,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.instances.problems import grid_of, problem_on
 
 from mrpbench_core.builtin.planners.rolling_horizon import RollingHorizon, from_rest
 from mrpbench_core.checking.plan import check_plan
@@ -10,7 +11,6 @@ from mrpbench_core.engine.execution.commitments import commitments, remaining
 from mrpbench_core.model.planning.plan import Budget, Plan
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.testing import PlannerConformance
-from mrpbench_core.testing.instances.problems import grid_of, problem_on
 
 mapf = pytest.importorskip("mrpbench_planners_mapf.lacam")
 BUDGET = Budget(wall_s=5.0, memory_bytes=2**30, iterations=10)

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.instances.buildings import MOST_DOORS, MOST_LIFTS, random_building
+from mrpbench_tests.instances.problems import problem_on
 
 from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.worlds.rmf import Rmf
@@ -17,8 +19,6 @@ from mrpbench_core.model.planning.plan import Budget, PlanStatus
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.model.worlds.doors import leaf_segments
 from mrpbench_core.store.paths import RunPaths
-from mrpbench_core.testing.instances.buildings import MOST_DOORS, MOST_LIFTS, random_building
-from mrpbench_core.testing.instances.problems import problem_on
 
 FLEET = Fleet(robots=(load_robot("turtlebot3_burger"),))
 BUDGET = Budget(wall_s=300.0, memory_bytes=1 << 30)

@@ -15,6 +15,11 @@ from importlib.metadata import entry_points
 
 import attrs
 import numpy as np
+from mrpbench_tests.execution.meetings import meetings
+from mrpbench_tests.execution.repeated_executor import RepeatedExecutor
+from mrpbench_tests.instances.kinds import KINDS
+from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources, wander
+from mrpbench_tests.instances.random_problems import random_grid_problem
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.api.planner import Promise
@@ -26,12 +31,7 @@ from mrpbench_core.engine.execution.worst_case import Adversary
 from mrpbench_core.model.execution.orders import RepeatedOrders
 from mrpbench_core.model.planning.plan import Budget, Plan
 from mrpbench_core.model.planning.problem import Feature, features_of
-from mrpbench_core.testing.execution.meetings import meetings
-from mrpbench_core.testing.execution.repeated_executor import RepeatedExecutor
 from mrpbench_core.testing.execution.resource_manager import ResourceManager
-from mrpbench_core.testing.instances.kinds import KINDS
-from mrpbench_core.testing.instances.random_plans import random_plan, random_plan_with_resources, wander
-from mrpbench_core.testing.instances.random_problems import random_grid_problem
 
 BUDGET = Budget(wall_s=0.5, memory_bytes=1 << 30, iterations=20)
 LIMIT = 1200.0

@@ -12,12 +12,12 @@ from importlib.metadata import entry_points
 
 import attrs
 import numpy as np
+from mrpbench_tests.execution.task_steps import TaskSteps
+from mrpbench_tests.instances.problems import grid_of, problem_on
 
 from mrpbench_core.builtin.task_sources.closed_pool import ClosedPoolStream
 from mrpbench_core.builtin.task_sources.listed import ListedStream
 from mrpbench_core.model.planning.scenario import Task
-from mrpbench_core.testing.execution.task_steps import TaskSteps
-from mrpbench_core.testing.instances.problems import grid_of, problem_on
 
 TICKS = 400
 PLANNERS = ("pibt", "prioritized", "pbs", "token_passing")

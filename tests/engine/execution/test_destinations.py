@@ -4,9 +4,9 @@ import attrs
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.instances.problems import grid_of, problem_on
 
 from mrpbench_core.engine.execution.destinations import Errand, Places
-from mrpbench_core.testing.instances.problems import grid_of, problem_on
 
 ROADMAP = grid_of([".....", "....."])
 

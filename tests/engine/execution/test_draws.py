@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from mrpbench_tests.instances.random_plans import random_plan
 
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.config.delays import Delays
@@ -12,7 +13,6 @@ from mrpbench_core.engine.execution.faults import FaultEvent, FaultState
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.worst_case import Adversary
-from mrpbench_core.testing.instances.random_plans import random_plan
 
 SLOW = FaultEvent(kind="slow", begin=1.0, end=9.0, robot=0, speed=0.5)
 

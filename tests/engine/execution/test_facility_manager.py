@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.execution.facility_executor import FacilityExecutor
+from mrpbench_tests.fixtures.places import PLACES, furnished_building, problem_between
 
 from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.builtin.worlds.shipped import Hospital
@@ -18,8 +20,6 @@ from mrpbench_core.model.planning.plan import Budget, Plan
 from mrpbench_core.model.planning.roadmap import Resource
 from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.world import Door, Lane, Level, Vertex, World
-from mrpbench_core.testing.execution.facility_executor import FacilityExecutor
-from mrpbench_core.testing.fixtures.places import PLACES, furnished_building, problem_between
 from mrpbench_core.testing.instances.roadmaps import path_through
 
 ENDS = [f"{name}_{level}" for name, level in product(PLACES, (0, 1)) if name not in ("landing", "cabin")]

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.execution.task_steps import TaskSteps
+from mrpbench_tests.instances.problems import grid_of, problem_on
 
 from mrpbench_core.builtin.assigners.insertion import Insertion
 from mrpbench_core.builtin.task_sources.listed import ListedStream
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.model.planning.scenario import Task
-from mrpbench_core.testing.execution.task_steps import TaskSteps
 from mrpbench_core.testing.fixtures.room import fleet
-from mrpbench_core.testing.instances.problems import grid_of, problem_on
 
 mapf = pytest.importorskip("mrpbench_planners_mapf.pibt")
 ROADMAP = grid_of([".....", ".#.#.", "....."])

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
@@ -12,7 +13,6 @@ from mrpbench_core.config.delays import Delays
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
-from mrpbench_core.testing.instances.random_plans import random_plan, random_plan_with_resources
 
 LATE = Delays(p_delay=0.05, max_delay=8, speed=0.2)
 

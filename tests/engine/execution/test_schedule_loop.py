@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
@@ -25,7 +26,6 @@ from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.testing.drawing import build
-from mrpbench_core.testing.instances.random_plans import random_plan, random_plan_with_resources
 from mrpbench_core.testing.instances.roadmaps import path_through, two_way_grid
 
 PERIOD = 0.25

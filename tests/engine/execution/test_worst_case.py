@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, assume, given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
@@ -16,7 +17,6 @@ from mrpbench_core.files.errors import InputErrors
 from mrpbench_core.model.planning.dependencies import Dependencies
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
-from mrpbench_core.testing.instances.random_plans import random_plan, random_plan_with_resources
 
 
 class Naive:

@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.instances.problems import grid_of
 
 from mrpbench_core.engine.prepare.costs import cost_matrix
 from mrpbench_core.engine.travel import travel_ticks
 from mrpbench_core.model.common.fleet import Fleet, RobotModel
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario, Task
-from mrpbench_core.testing.instances.problems import grid_of
 
 SQUARE = [[-0.1, -0.1], [0.1, -0.1], [0.1, 0.1], [-0.1, 0.1]]
 SLOW = RobotModel(name="slow", footprint=SQUARE, max_speed=0.5, max_turn_rate=1.0)

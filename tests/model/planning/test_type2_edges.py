@@ -4,10 +4,10 @@ import attrs
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.instances.random_plans import random_plan
 
 from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
 from mrpbench_core.model.planning.type2_edges import moves_of, type2_edges
-from mrpbench_core.testing.instances.random_plans import random_plan
 
 
 @settings(max_examples=20, deadline=None)

@@ -3,6 +3,9 @@
 import numpy as np
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.execution.meetings import meetings
+from mrpbench_tests.execution.repeated_executor import RepeatedExecutor
+from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
@@ -10,9 +13,6 @@ from mrpbench_core.checking.conflicts import find_conflicts
 from mrpbench_core.config.delays import Delays
 from mrpbench_core.engine.execution.delays import DrawnDelays
 from mrpbench_core.model.planning.plan import Path, Plan
-from mrpbench_core.testing.execution.meetings import meetings
-from mrpbench_core.testing.execution.repeated_executor import RepeatedExecutor
-from mrpbench_core.testing.instances.random_plans import random_plan, random_plan_with_resources
 
 SEEDS = st.integers(0, 2**32 - 1)
 DELAYS = Delays(p_delay=0.1, max_delay=6, speed=0.3)

@@ -2,6 +2,7 @@
 
 import attrs
 import numpy as np
+from mrpbench_tests.variant import variant
 
 from mrpbench_core.api import (
     Assigner,
@@ -9,7 +10,6 @@ from mrpbench_core.api import (
 )
 from mrpbench_core.model.planning.assignment import Assignment
 from mrpbench_core.testing import failed_checks, suite_for
-from mrpbench_core.testing.variant import variant
 
 
 @attrs.frozen(kw_only=True)

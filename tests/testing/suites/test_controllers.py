@@ -2,13 +2,13 @@
 
 import numpy as np
 import pytest
+from mrpbench_tests.variant import variant
 
 from mrpbench_core.api import (
     Controller,
     ControllerSession,
 )
 from mrpbench_core.testing import failed_checks, suite_for
-from mrpbench_core.testing.variant import variant
 
 
 def controller(command):

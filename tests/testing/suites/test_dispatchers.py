@@ -3,6 +3,7 @@
 import copy
 
 import numpy as np
+from mrpbench_tests.variant import variant
 
 from mrpbench_core.api import (
     Dispatcher,
@@ -12,7 +13,6 @@ from mrpbench_core.api import (
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.model.execution.orders import Orders, RepeatedOrders
 from mrpbench_core.testing import DispatcherConformance, failed_checks, suite_for
-from mrpbench_core.testing.variant import variant
 
 
 class Session(DispatcherSession):

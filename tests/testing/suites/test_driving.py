@@ -2,12 +2,12 @@
 
 import attrs
 import numpy as np
+from mrpbench_tests.variant import variant
 
 from mrpbench_core.api import Crowd, Mover, Movers
 from mrpbench_core.builtin.localizers.ground_truth import GroundTruth
 from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.testing import failed_checks, suite_for
-from mrpbench_core.testing.variant import variant
 
 
 def test_a_localizer_that_is_lost():

@@ -3,6 +3,7 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_tests.variant import variant
 
 from mrpbench_core.api import (
     Planner,
@@ -14,7 +15,6 @@ from mrpbench_core.testing import failed_checks, suite_for
 from mrpbench_core.testing.drawing import problem
 from mrpbench_core.testing.faults import Fault
 from mrpbench_core.testing.oracles.planner_call import call
-from mrpbench_core.testing.variant import variant
 
 
 @attrs.frozen(kw_only=True)
@@ -58,6 +58,16 @@ def gives_up(self, asked, budget):
     return PlanResult(status=PlanStatus.GAVE_UP)
 
 
+def slow(self, asked, budget):
+    plan = Bfs.plan(asked)
+    if plan is None or len(asked) > 1:
+        return PlanResult(status=PlanStatus.GAVE_UP)
+    late = Path(
+        edge=[-1, *plan.paths[0].edge], enter=[0, *plan.paths[0].enter + 1], leave=[1, *plan.paths[0].leave + 1]
+    )
+    return PlanResult(status=PlanStatus.SOLVED, plan=Plan(paths=(late,)))
+
+
 PLANNERS = {
     "finds the way of a robot alone": {"plan": gives_up},
     "plans are valid": {"plan": alone},
@@ -83,8 +93,13 @@ PLANNERS = {
         "supports": frozenset({Feature.GOAL_SETS}),
         "promises": frozenset(),
     },
-    "is within its bound": {"plan": gives_up, "promises": frozenset({Promise.BOUNDED})},
+    "is within its bound": {"plan": slow, "promises": frozenset({Promise.BOUNDED}), "suboptimality": 1.0},
 }
+
+
+def test_a_planner_that_does_not_say_its_factor():
+    found = failed_checks(suite_for(variant(Still, promises=frozenset({Promise.ROBUST}))()))
+    assert found["declares features and promises"].endswith("promises `robust`, so it must override `robustness`")
 
 
 @pytest.mark.parametrize("check", PLANNERS)
@@ -97,15 +112,6 @@ def test_a_planner_that_leaves_robots_where_they_are():
 
 
 def test_a_planner_whose_optimum_is_none():
-    def slow(self, asked, budget):
-        plan = Bfs.plan(asked)
-        if plan is None or len(asked) > 1:
-            return PlanResult(status=PlanStatus.GAVE_UP)
-        late = Path(
-            edge=[-1, *plan.paths[0].edge], enter=[0, *plan.paths[0].enter + 1], leave=[1, *plan.paths[0].leave + 1]
-        )
-        return PlanResult(status=PlanStatus.SOLVED, plan=Plan(paths=(late,)))
-
     found = failed_checks(
         suite_for(variant(Still, plan=slow, promises=frozenset({Promise.CONFLICT_FREE, Promise.OPTIMAL}))())
     )

@@ -3,6 +3,7 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_tests.variant import variant
 
 from mrpbench_core.api import (
     Column,
@@ -12,7 +13,6 @@ from mrpbench_core.api import (
     option,
 )
 from mrpbench_core.testing import failed_checks, suite_for
-from mrpbench_core.testing.variant import variant
 
 
 @attrs.frozen(kw_only=True)

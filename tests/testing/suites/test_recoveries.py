@@ -3,10 +3,10 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_tests.variant import variant
 
 from mrpbench_core.api.recovery import Recovery, RecoverySession
 from mrpbench_core.testing import failed_checks, suite_for
-from mrpbench_core.testing.variant import variant
 
 
 class Session(RecoverySession):

@@ -2,12 +2,12 @@
 
 import attrs
 import numpy as np
+from mrpbench_tests.variant import variant
 
 from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.scenarios.random import Random
 from mrpbench_core.builtin.worlds.shipped import Office
 from mrpbench_core.testing import failed_checks, suite_for
-from mrpbench_core.testing.variant import variant
 
 
 def wrapped(base, method, change):

@@ -6,9 +6,9 @@ import attrs
 import numpy as np
 import pytest
 from mrpbench_controllers_dwb import Critic, CriticSession, PathDist
+from mrpbench_tests.variant import variant
 
 from mrpbench_core.testing import failed_checks, run_checks, suite_for
-from mrpbench_core.testing.variant import variant
 
 RANDOM = np.random.default_rng(0)
 

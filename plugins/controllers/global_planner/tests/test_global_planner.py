@@ -4,11 +4,11 @@ import pytest
 from mrpbench_controllers_global_planner import GlobalPlanner
 from mrpbench_controllers_global_planner.session import ahead
 from mrpbench_controllers_local.costmap import LocalCostmap
+from mrpbench_tests.fixtures.following import SPRINTER, seen
 
 from mrpbench_core.api import Controller, FleetControllerSession
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.worlds.world import Level, Vertex, World
-from mrpbench_core.testing.fixtures.following import SPRINTER, seen
 
 WALLED = World(
     name="walled",

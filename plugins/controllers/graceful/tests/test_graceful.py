@@ -7,9 +7,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_controllers_graceful import Graceful
+from mrpbench_tests.fixtures.following import NOWHERE, SPRINTER, seen
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.testing.fixtures.following import NOWHERE, SPRINTER, seen
 
 PLAIN = {"initial_rotation": False, "use_collision_detection": False, "max_lookahead": 9.0}
 NAV2 = {"k_phi": 1.0, "k_delta": 10.0, "beta": 0.2, "lambda_": 2.0, "slowdown_radius": 0.1}

@@ -3,10 +3,10 @@ import numpy as np
 import pytest
 from mrpbench_controllers_mppi import CriticSession, GoalCritic, Mppi, MppiCritic
 from mrpbench_controllers_mppi.nav2_critics import DEFAULT
+from mrpbench_tests.fixtures.following import NOWHERE, SPRINTER, seen
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.testing import failed_checks, suite_for
-from mrpbench_core.testing.fixtures.following import NOWHERE, SPRINTER, seen
 
 
 class LeftSession(CriticSession):

@@ -4,9 +4,9 @@ import pytest
 from mrpbench_controllers_mppi import CostCritic, GoalCritic, LocalCostmap, Mppi, PathAlignCritic, PathFollowCritic
 from mrpbench_controllers_mppi.nav2_critics import DEFAULT
 from mrpbench_controllers_rotation_shim import RotationShim
+from mrpbench_tests.fixtures.following import NOWHERE, SPRINTER, seen
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.testing.fixtures.following import NOWHERE, SPRINTER, seen
 from mrpbench_core.testing.fixtures.room import driven
 
 PERIOD = 0.05

@@ -3,10 +3,10 @@ import math
 import numpy as np
 import pytest
 from mrpbench_controllers_rotation_shim import RotationShim
+from mrpbench_tests.fixtures.following import NOWHERE, SPRINTER, seen
 
 from mrpbench_core.api import Controller, FleetControllerSession
 from mrpbench_core.config.study import load_study
-from mrpbench_core.testing.fixtures.following import NOWHERE, SPRINTER, seen
 
 
 class _Straight(FleetControllerSession):

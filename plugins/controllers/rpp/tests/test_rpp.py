@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_controllers_rpp import Rpp
+from mrpbench_tests.fixtures.following import NOWHERE, SPRINTER, seen
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
-from mrpbench_core.testing.fixtures.following import NOWHERE, SPRINTER, seen
 
 PERIOD = 0.05
 

@@ -9,9 +9,9 @@ import sys
 from collections import Counter
 
 from mrpbench_dispatchers_reordering import Btpg, Gses, Sadg
+from mrpbench_tests.execution.drawn_executions import drained
 
 from mrpbench_core.builtin.dispatchers.adg import Adg
-from mrpbench_core.testing.execution.drawn_executions import drained
 from mrpbench_core.testing.faults import Fault
 
 KINDS = {

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
 from mrpbench_dispatchers_reordering import Btpg, Gses, Sadg, searching
+from mrpbench_tests.execution.drawn_executions import drained
 
 from mrpbench_core.builtin.dispatchers.adg import Adg
-from mrpbench_core.testing.execution.drawn_executions import drained
 
 SEEDS = st.integers(0, 2**32 - 1)
 EAGER = Gses(period=0, lateness=0, gain=0.001, lookahead=1)

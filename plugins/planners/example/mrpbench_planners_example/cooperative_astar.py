@@ -14,9 +14,7 @@ from typing import ClassVar, Literal
 import attrs
 import numpy as np
 
-from mrpbench_core.api import Planner, Promise, option
-from mrpbench_core.model.planning.plan import Budget, Path, Plan, PlanResult, PlanStatus
-from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.api import Budget, Path, Plan, Planner, PlanResult, PlanStatus, Problem, Promise, option
 
 Graph = list[dict[int, int]]
 """For each vertex, its neighbours and the edges that lead to them."""

@@ -7,10 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_planners_example import Example
 
-from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.planning.plan import Budget, PlanStatus
-from mrpbench_core.model.planning.problem import Feature, Problem, Rules, features_of
-from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.api import Budget, Feature, PlanStatus, Problem, Roadmap, Rules, check_plan
+from mrpbench_core.model.planning.problem import features_of
 
 AMPLE = Budget(wall_s=60.0, memory_bytes=1 << 30)
 

@@ -9,14 +9,14 @@ from collections.abc import Callable
 
 from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
 from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
+from mrpbench_tests.instances.kinds import KINDS, Draw
+from mrpbench_tests.instances.random_problems import Random
+from mrpbench_tests.instances.variations import with_candidates
+from mrpbench_tests.soak import Soak, drawn_switches, main
 
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.testing.instances.kinds import KINDS, Draw
-from mrpbench_core.testing.instances.random_problems import Random
-from mrpbench_core.testing.instances.variations import with_candidates
 from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
-from mrpbench_core.testing.soak import Soak, drawn_switches, main
 
 BOUNDS = (1.0, 1.01, 1.05, 1.2, 1.5, 3.0)
 ORACLE_STATES = 2000

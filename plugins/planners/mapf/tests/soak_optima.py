@@ -22,11 +22,11 @@ from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
 from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
 from mrpbench_planners_mapf.lacam import Lacam
 from mrpbench_planners_mapf.lns import Lns
+from mrpbench_tests.instances.problems import movingai
+from mrpbench_tests.oracles.judge import answer_faults
 
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.model.planning.plan import Budget
-from mrpbench_core.testing.instances.problems import movingai
-from mrpbench_core.testing.oracles.judge import answer_faults
 
 PLANNERS: dict[str, type[Planner]] = {
     "cbs": Cbs,

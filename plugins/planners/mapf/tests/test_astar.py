@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 from mrpbench_planners_mapf.astar import Astar
+from mrpbench_tests.instances.problems import problem_on
+from mrpbench_tests.instances.random_problems import random_graph_problem, random_rules
 
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.checking.paths import path_faults
 from mrpbench_core.model.planning.plan import Budget, PlanStatus
-from mrpbench_core.testing.instances.problems import problem_on
-from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_rules
 from mrpbench_core.testing.instances.roadmaps import grid_of
 from mrpbench_core.testing.oracles.optimum import earliest_arrival
 

@@ -12,13 +12,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
+from mrpbench_tests.instances.problems import movingai, problem_on
+from mrpbench_tests.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
+from mrpbench_tests.instances.variations import with_plan_released
+from mrpbench_tests.oracles.judge import AMPLE, ask, compare_with_optimum
 
 from mrpbench_core.model.planning.plan import PlanStatus
-from mrpbench_core.testing.instances.problems import movingai, problem_on
-from mrpbench_core.testing.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
 from mrpbench_core.testing.instances.roadmaps import grid_of
-from mrpbench_core.testing.instances.variations import with_plan_released
-from mrpbench_core.testing.oracles.judge import AMPLE, ask, compare_with_optimum
 
 seeds = st.integers(0, 2**32 - 1)
 bounds = st.sampled_from([1.0, 1.01, 1.05, 1.1, 1.2, 1.5, 2.0, 3.0, 5.0])

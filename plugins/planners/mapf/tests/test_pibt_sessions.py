@@ -4,10 +4,10 @@ import attrs
 import numpy as np
 from mrpbench_planners_mapf.native import KnownRoadmap
 from mrpbench_planners_mapf.pibt import Pibt
+from mrpbench_tests.instances.problems import grid_of, problem_on
 
 from mrpbench_core.model.planning.plan import Budget
 from mrpbench_core.model.planning.problem import Feature
-from mrpbench_core.testing.instances.problems import grid_of, problem_on
 
 BUDGET = Budget(wall_s=100, memory_bytes=1 << 30)
 RING = ["......", ".####.", "......"]

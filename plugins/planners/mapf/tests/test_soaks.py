@@ -6,9 +6,9 @@ from pathlib import Path
 import attrs
 import pytest
 from mrpbench_planners_mapf.cbs import Cbs
+from mrpbench_tests.soak import run
 
 from mrpbench_core.model.planning.plan import PlanStatus
-from mrpbench_core.testing.soak import run
 
 PLANNING, ASSIGNING = (
     runpy.run_path(str(Path(__file__).with_name(f"soak_{name}.py")))["SOAK"] for name in ("planners", "assigning")

@@ -7,12 +7,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_native.sim import Caster
 from mrpbench_simulators_planar import Planar
+from mrpbench_tests.fixtures.drive import BURGER, EMPTY, FURNISHED, RASTER, STARTS, WAFFLE, drive
 
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.builtin.simulators.lidar import scan
 from mrpbench_core.model.common.fleet import Lidar
 from mrpbench_core.model.worlds.solids import segments, wall_boxes
-from mrpbench_core.testing.fixtures.drive import BURGER, EMPTY, FURNISHED, RASTER, STARTS, WAFFLE, drive
 
 
 def both(world, robots, starts, periods=8, **options):

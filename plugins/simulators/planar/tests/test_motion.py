@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_simulators_planar import Planar
+from mrpbench_tests.fixtures.drive import BURGER, EMPTY, FURNISHED, STARTS, WAFFLE, drive
 
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.model.common.geometry import point_segment_distance
 from mrpbench_core.model.worlds.solids import segments
-from mrpbench_core.testing.fixtures.drive import BURGER, EMPTY, FURNISHED, STARTS, WAFFLE, drive
 from mrpbench_core.testing.fixtures.room import PERIOD
 
 TOLERANCE = 1e-4

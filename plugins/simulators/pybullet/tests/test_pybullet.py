@@ -8,13 +8,13 @@ import attrs
 import numpy as np
 import pytest
 from mrpbench_simulators_pybullet import PyBullet, walls
+from mrpbench_tests.fixtures.drive import BURGER, EMPTY, FURNISHED, RASTER, drive
 
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet, Lidar
 from mrpbench_core.model.execution.state import Inputs
 from mrpbench_core.model.worlds.world import Door, Level, World
-from mrpbench_core.testing.fixtures.drive import BURGER, EMPTY, FURNISHED, RASTER, drive
 from mrpbench_core.testing.fixtures.room import PERIOD
 
 pytest.importorskip("pybullet", reason="PyBullet has no wheel for this Python")

@@ -1,0 +1,5 @@
+"""Assigner last_assigner for mrpbench."""
+
+from mrpbench_assigners_last_assigner.last_assigner import LastAssigner
+
+__all__ = ["LastAssigner"]

@@ -1,0 +1,1 @@
+"""What tests of this repository share and authors of plugins do not need: see the folders."""

@@ -1,0 +1,1 @@
+"""Executes drawn plans and tasks on the roadmap alone, with delays."""

@@ -1,0 +1,1 @@
+"""Problems, plans and buildings that are drawn at random."""

@@ -1,0 +1,1 @@
+"""Judges of answers of planners and of records of tasks."""
