@@ -8,7 +8,7 @@ JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/pyproject.toml plugins/*/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: results-site help install explore pages anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds fuzz wheels docs links
+.PHONY: results-site help install explore pages anchors rotations demo test lint types layers cpp python format lock speed clean optima ros soak sanitize worlds fuzz mutants wheels docs links
 
 help: ## list the targets
 	@grep -hE '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -81,7 +81,7 @@ soak: install ## compare with brute force, execute drawn plans a million times, 
 	$(BIN)/python plugins/crowds/walking/tests/soak_people.py 60 --crowd orca
 
 pages: install ## do what every page of the documentation says, in empty folders (ten minutes)
-	MRPBENCH_ALL_PAGES=1 $(BIN)/pytest --numprocesses $(JOBS) --dist worksteal tests/docs tests/cli/test_new_native_planner.py
+	MRPBENCH_ALL_PAGES=1 $(BIN)/pytest --numprocesses $(JOBS) --dist worksteal tests/docs
 
 SANITIZED := build/sanitized
 CHECKED = LD_PRELOAD="$(shell c++ -print-file-name=libasan.so) $(shell c++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 $(SANITIZED)/bin/python
@@ -103,6 +103,10 @@ fuzz: install ## give changed inputs to readers of files; COUNT=1000000 READERS=
 	test -d $(ATHERIS) || $(PYTHON) -m pip install --quiet --disable-pip-version-check --target $(ATHERIS) atheris || echo "Atheris cannot be installed here"
 	PYTHONPATH=$(ATHERIS) $(BIN)/python fuzz/run.py --inputs $(or $(COUNT),20000) $(READERS)
 	$(if $(READERS),,fuzz/native.sh $(or $(COUNT),20000))
+
+mutants: install ## change production code 80 times and count how many changes the tests find (an hour); ARGS="--count 10 --seed 2"
+	test -x $(BIN)/coverage || $(PYTHON) -m pip --python $(BIN)/python install --quiet --disable-pip-version-check 'coverage>=7.17'
+	$(BIN)/python scripts/mutants $(ARGS)
 
 worlds: install ## drive robots on every built-in world without contacts (ten minutes); CONTROLLER=dwb for another
 	$(BIN)/python benchmarks/worlds.py --controller $(or $(CONTROLLER),pure_pursuit)

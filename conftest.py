@@ -1,5 +1,6 @@
 """Fixtures that every test folder shares."""
 
+import secrets
 import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -9,7 +10,7 @@ import pytest
 from hypothesis import settings
 
 from mrpbench_core.cli.main import main
-from mrpbench_core.engine.processes.slots import slots_of_this_process
+from mrpbench_core.engine.processes import slots
 
 # The same examples in every run, so that a change is judged by what it changes; `make explore` draws others.
 settings.register_profile("mrpbench", deadline=None, derandomize=True)  # a busy machine is no defect
@@ -41,11 +42,20 @@ FLAGS = (
 )
 
 
+@pytest.fixture(scope="session")
+def worker_slots() -> Iterator[str]:
+    """Worker slots that modules share."""
+    key = secrets.token_hex(8)
+    yield key
+    slots.close_slots(key)
+
+
 @pytest.fixture(scope="module")
-def kept_workers() -> Iterator[None]:
+def kept_workers(worker_slots: str) -> Iterator[None]:
     """Keep worker processes for all studies of a module, since starting them costs more than most runs."""
-    with slots_of_this_process():
-        yield
+    token = slots._OPEN.set(worker_slots)
+    yield
+    slots._OPEN.reset(token)
 
 
 @pytest.fixture(scope="session")
@@ -61,6 +71,12 @@ def shared_data() -> Path:
 def tiny_map() -> str:
     """Return nine free cells as a MovingAI map."""
     return MAP
+
+
+@pytest.fixture(scope="session")
+def tiny_study() -> str:
+    """Return a study of two robots on it, once for each of two seeds."""
+    return STUDY
 
 
 @pytest.fixture

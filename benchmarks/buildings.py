@@ -23,7 +23,7 @@ from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.stages.plan import call_planner
+from mrpbench_core.engine.drive.plan import call_planner
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.plan import Budget

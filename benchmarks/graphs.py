@@ -19,7 +19,7 @@ from problem_building import MEMORY, problem_of
 
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.stages.plan import call_planner
+from mrpbench_core.engine.drive.plan import call_planner
 from mrpbench_core.model.planning.plan import Budget
 
 PLANNERS = ("cbs", "ecbs w=1.2", "eecbs w=1.2", "pbs", "prioritized")

@@ -8,11 +8,11 @@ from mrpbench_native import Solution
 
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.drive.plan import call_planner
+from mrpbench_core.engine.prepare.assign import assign
+from mrpbench_core.engine.prepare.make_instance import build_run_instance
+from mrpbench_core.engine.prepare.problem_building import build_problem
 from mrpbench_core.engine.stage import RunEnded
-from mrpbench_core.engine.stages.assign import assign
-from mrpbench_core.engine.stages.plan import call_planner
-from mrpbench_core.engine.stages.prepare import build_run_instance
-from mrpbench_core.engine.stages.problem_building import build_problem
 from mrpbench_core.model.planning.plan import Budget
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.referee.plans import judge

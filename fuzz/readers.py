@@ -34,7 +34,10 @@ from mrpbench_core.files.scenario import read_scenario
 from mrpbench_core.files.tasks import read_tasks
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.worlds.world import World
-from mrpbench_core.referee.measuring import describe, measure_recording
+from mrpbench_core.referee.asked import Asked
+from mrpbench_core.referee.measuring import describe
+from mrpbench_core.referee.plans import Promises
+from mrpbench_core.referee.verdict import judge
 from mrpbench_core.report.data import write_estimates
 from mrpbench_core.report.folder_comparison import compare_folders
 from mrpbench_core.report.html.page import write_report
@@ -141,10 +144,28 @@ def read_recording(file: Path) -> None:
         kept.close()
 
 
+ASKED = Asked(
+    run_id="",
+    promises=Promises.none(),
+    executes=True,
+    driven=True,
+    tasks=False,
+    limit_s=300.0,
+    period=0.05,
+    rate=10.0,
+    latency=0.0,
+    goal_tolerance=0.7,
+    plan_filter="none",
+    actuation=0.0,
+    apart=False,
+)
+"""Of a run as the examples of recordings have it."""
+
+
 def use_recording(kept: Recording) -> None:
-    """Show and measure a recording, and write it as a bag."""
+    """Show and judge a recording, and write it as a bag."""
     write_page(kept, example()[0], kept.file.parent / "page.html", columns={}, planner="example")
-    measure_recording({"execution": execution.Execution()}, kept.file)
+    judge(ASKED, kept, {"execution": execution.Execution()}, None)
     session = Rosbag2(topics=("/robot_*", "/tf*")).open(kept.first_context(), kept.file.parent / "bag")
     try:
         for chunk in kept.chunks():

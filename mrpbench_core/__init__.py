@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from mrpbench_core.store.results import load as load
 
 
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})
+
+
 def __getattr__(name: str) -> Any:
     """Import the two functions when they are used: plugins and `mrpbench --help` need only the version."""
     if name in __all__:

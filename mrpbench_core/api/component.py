@@ -79,6 +79,9 @@ class Component(ABC):
     live: ClassVar[bool] = False
     """True if something outside with a clock of its own takes part; such runs are marked and are not repeatable."""
 
+    reserved: ClassVar[frozenset[str]] = frozenset()
+    """Names that no component of the kind may have."""
+
     suite: ClassVar[str | None] = None
     """The conformance suite of a kind that a plugin defines, as `package.module:Class`; the class of the kind sets it.
 
@@ -90,6 +93,10 @@ class Component(ABC):
         A configuration that names one is told so before its runs.
         """
         return {}
+
+    def notes(self) -> tuple[str, ...]:
+        """Return what the user should know of the files of its options before the runs, one line each."""
+        return ()
 
     def reads(self) -> tuple[Path, ...]:
         """Return files that the component reads besides those of its options, e.g. because one of these names them.

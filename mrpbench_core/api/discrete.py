@@ -3,7 +3,7 @@
 from abc import abstractmethod
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import attrs
 
@@ -59,6 +59,9 @@ class DiscreteSimulator(Simulator):
     No dispatcher, navigator, controller or localizer takes part, and the planner gives no plan of the whole run
     (decision 21).
     """
+
+    executes_runs: ClassVar[bool] = True
+    suite: ClassVar[str | None] = "mrpbench_core.testing.suites.discrete:DiscreteSimulatorConformance"
 
     @abstractmethod
     def skip(self, planner: Planner) -> str | None:

@@ -47,7 +47,7 @@ class Column:
     better."""
     answers: Question | None = None
     """The question at the beginning of a report that it helps to answer: how much gets done, how long does a task take,
-    how many tasks are open, do robots arrive, how long does it take, what does planning cost, how near do robots come?
+    how many tasks are open, do robots arrive, how long do they take, how long does planning take, how near do they get?
     None = a question of its own, if it is shown."""
     threshold: float | None = None
     """Smallest difference of two means, in `unit`, that matters in practice (smallest effect size of interest;
@@ -63,6 +63,8 @@ class Metric(Component):
     """Measures a finished run from its plan and recording."""
 
     group: ClassVar[str] = "mrpbench.metrics"
+    reserved: ClassVar[frozenset[str]] = frozenset({"analysis", "config", "error", "plan", "provenance", "timing"})
+    """The parts of a record, with which the columns of a metric of that name would be mistaken."""
     columns: ClassVar[tuple[Column, ...]]
     requires: ClassVar[frozenset[str]] = frozenset()
     """Channels of the recording, `plan`, and `path` (the paths that robots were to follow are known). Where one is

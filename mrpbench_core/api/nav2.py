@@ -7,7 +7,22 @@ import attrs
 
 from mrpbench_core.api.component import bounded
 from mrpbench_core.api.described import DescribedOption, kind_of, validator_of
-from mrpbench_core.files.nav2 import Nav2Block
+from mrpbench_core.files.nav2 import OF_EVERY_NODE, Nav2Block
+from mrpbench_core.files.nav2_file import Nav2File
+
+PLUGINS = {
+    "controller": "FollowPath",
+    "goal_checker": "goal_checker",
+    "progress_checker": "progress_checker",
+    "path_handler": "PathHandler",
+}
+"""The kinds of plugins of Nav2's controller server, each with the id of the one that it has by default."""
+_OF_SERVER = (
+    *("controller_frequency", "min_x_velocity_threshold", "min_y_velocity_threshold", "min_theta_velocity_threshold"),
+    *("speed_limit_topic", "odom_topic", "odom_duration", "enable_stamped_cmd_vel", "publish_zero_velocity"),
+    *("use_realtime_priority", "costmap_update_timeout", "transform_tolerance"),
+)
+"""Parameters of Nav2's controller server that have no effect here."""
 
 
 def parameter(default: Any, *, help: str, unit: str | None = None, validator: Callable[..., Any] | None = None) -> Any:
@@ -36,15 +51,12 @@ def as_parameter(described: DescribedOption, *, unset: bool = False) -> tuple[An
     return kind_of(described) | None, field
 
 
-def settle(
-    options: Any, block: Nav2Block | None = None, prefix: str = "", of: type[Any] | None = None
-) -> dict[str, Any]:
+def settle(options: Any, block: Nav2Block | None = None, of: type[Any] | None = None) -> dict[str, Any]:
     """Return the values of all options declared with `parameter` in an attrs instance, by name.
 
     Args:
         options: the instance.
         block: parameters of a Nav2 file.
-        prefix: put before each name in the file, e.g. `inflation_layer.`.
         of: base class of `options` whose options are returned; by default all.
 
     Raises:
@@ -52,16 +64,24 @@ def settle(
     """
     values = {}
     for field in attrs.fields(of or type(options)):
-        if "nav2" not in field.metadata:
-            continue
-        value = field.metadata["nav2"]
-        if block is not None:
-            name = prefix + field.name
-            value = block.take(name, _kind(field.type), value)
-            check_parameter(field, value, block, name)
-        given = getattr(options, field.name)
-        values[field.name] = value if given is None else given
+        if "nav2" in field.metadata:
+            value = read_option(options, field.name, block)
+            values[field.name] = field.metadata["nav2"] if value is None else value
     return values
+
+
+def read_option(options: Any, name: str, block: Nav2Block | None, key: str | None = None) -> Any:
+    """Return an option of an attrs instance as it is set, or else as a block has it, by `key` if it differs; or None.
+
+    Raises:
+        InputError: the value in the block has the wrong type, or the validator of the option refuses it.
+    """
+    field = getattr(attrs.fields(type(options)), name)
+    value = None if block is None else block.take(key or name, _kind(field.type))
+    if block is not None:
+        check_parameter(field, value, block, key or name)
+    given = getattr(options, name)
+    return value if given is None else given
 
 
 def _kind(declared: Any) -> type:
@@ -79,3 +99,39 @@ def check_parameter(field: Any, value: Any, block: Nav2Block, name: str) -> None
         field.validator(None, field, value)
     except ValueError as error:
         raise block.error(str(error.args[0]), name) from None
+
+
+def controller_server(file: Nav2File, namespace: str) -> Nav2Block:
+    """Return the parameters of the controller server; those of its plugins are left to who reads them (`within`).
+
+    Raises:
+        InputError: the file has none.
+    """
+    server = file.node("controller_server", namespace)
+    if server is None:
+        raise file.missing("controller_server")
+    server.ignore("failure_tolerance", *(name for kind in PLUGINS for name in plugin_ids(server, kind)))
+    server.not_used(*OF_EVERY_NODE, *_OF_SERVER)
+    return server
+
+
+def plugin_ids(server: Nav2Block, kind: str) -> tuple[str, ...]:
+    """Return the ids of the plugins that the controller server has of a kind, as the releases of Nav2 list them."""
+    single = server.take(f"{kind}_plugin", str, "")
+    server.ignore(f"{kind}_plugin_types")
+    return (
+        server.take_names(f"{kind}_plugins")
+        or server.take_names(f"{kind}_plugin_ids")
+        or ((single,) if single else (PLUGINS[kind],))
+    )
+
+
+def not_used(*blocks: Nav2Block | None) -> tuple[str, ...]:
+    """Return the notes on parameters that have no effect here, one line for those of a node, one for its plugins'."""
+    notes = []
+    for block in filter(None, blocks):
+        unused = block.unused()
+        place = ": ".join(filter(None, (str(block.document.file) if block.document else "", block.title)))
+        own, inner = [name for name in unused if "." not in name], [name for name in unused if "." in name]
+        notes += [f"{place}: not used here: {', '.join(names)}".removeprefix(": ") for names in (own, inner) if names]
+    return tuple(notes)

@@ -46,6 +46,8 @@ class Simulator(Component):
     """Moves robots through a world and takes their scans."""
 
     group: ClassVar[str] = "mrpbench.simulators"
+    executes_runs: ClassVar[bool] = False
+    """True if it executes whole runs by itself; see `mrpbench_core.api.discrete`."""
 
     @abstractmethod
     def open(

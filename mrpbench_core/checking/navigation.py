@@ -1,5 +1,7 @@
 """Finds places where a drawn navigation graph looks connected but is not."""
 
+from collections import defaultdict
+
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Float
@@ -14,10 +16,26 @@ Pair = tuple[int, int]
 
 def unique_edges(world: World) -> list[Pair]:
     """The lanes as sorted pairs of vertices, each once; the last of several vertices at one position stands for all."""
+    return sorted(_graphs_of_edges(world))
+
+
+def graphs(world: World) -> list[set[int]]:
+    """The navigation graphs of the lanes at each vertex."""
+    of: list[set[int]] = [set() for _ in world.vertices]
+    for lane in world.lanes:
+        of[lane.start].add(lane.graph)
+        of[lane.end].add(lane.graph)
+    return of
+
+
+def _graphs_of_edges(world: World) -> dict[Pair, set[int]]:
     last = {(vertex.x, vertex.y, vertex.level): index for index, vertex in enumerate(world.vertices)}
     number = [last[vertex.x, vertex.y, vertex.level] for vertex in world.vertices]
-    pairs = {(number[lane.start], number[lane.end]) for lane in world.lanes}
-    return sorted({(min(pair), max(pair)) for pair in pairs})
+    of: dict[Pair, set[int]] = defaultdict(set)
+    for lane in world.lanes:
+        start, end = number[lane.start], number[lane.end]
+        of[min(start, end), max(start, end)].add(lane.graph)
+    return of
 
 
 def duplicates(world: World) -> list[tuple[int, ...]]:
@@ -29,27 +47,31 @@ def duplicates(world: World) -> list[tuple[int, ...]]:
 
 
 def vertices_on_lanes(world: World) -> list[tuple[int, Pair]]:
-    """Vertices on an edge that does not end there, with that edge."""
+    """Vertices on an edge of their graph that does not end there, with that edge."""
     point, level = _positions(world)
+    of = graphs(world)
     found = []
-    for a, b in unique_edges(world):
+    for (a, b), own in sorted(_graphs_of_edges(world).items()):
         near = (point_segment_distance(point, point[a], point[b]) < TOLERANCE) & (level == level[a])
         ends = np.minimum(np.hypot(*(point - point[a]).T), np.hypot(*(point - point[b]).T))
-        found += [(vertex, (a, b)) for vertex in np.flatnonzero(near & (ends >= TOLERANCE)).tolist()]
+        inside = np.flatnonzero(near & (ends >= TOLERANCE)).tolist()
+        found += [(vertex, (a, b)) for vertex in inside if not of[vertex] or of[vertex] & own]
     return found
 
 
 def crossings(world: World) -> list[tuple[Pair, Pair]]:
-    """Edges that cross without a common vertex."""
+    """Edges of one graph that cross without a common vertex."""
     point, level = _positions(world)
-    edges = np.array(unique_edges(world), np.int64).reshape(-1, 2)
+    of = _graphs_of_edges(world)
+    edges = np.array(sorted(of), np.int64).reshape(-1, 2)
     found: list[tuple[Pair, Pair]] = []
     for index, (a, b) in enumerate(edges.tolist()):
         c, d = edges[index + 1 :].T
         apart = side(point[a], point[b], point[c]) * side(point[a], point[b], point[d]) < 0
         apart &= side(point[c], point[d], point[a]) * side(point[c], point[d], point[b]) < 0
         later = np.flatnonzero(apart & (level[c] == level[a]))
-        found += [((a, b), (int(c[other]), int(d[other]))) for other in later.tolist()]
+        crossed = [(int(c[other]), int(d[other])) for other in later.tolist()]
+        found += [((a, b), other) for other in crossed if of[a, b] & of[other]]
     return found
 
 

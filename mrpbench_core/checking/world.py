@@ -1,5 +1,6 @@
 """Facts and faults of a world and of a roadmap built on it."""
 
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 
 import attrs
@@ -8,7 +9,7 @@ import numpy as np
 from mrpbench_core.checking.clearance import has_clearance, solids
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.door_sweeps import check_door_sweeps
-from mrpbench_core.checking.navigation import called, crossings, duplicates, unique_edges, vertices_on_lanes
+from mrpbench_core.checking.navigation import called, crossings, duplicates, graphs, unique_edges, vertices_on_lanes
 from mrpbench_core.checking.passages import narrow_passages
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.worlds.world import World
@@ -31,6 +32,8 @@ class WorldFacts:
     obstacles: int
     """Furniture."""
     vertices: int
+    shared: int
+    """Places that several navigation graphs have, as those of several fleets do."""
     edges: int
     components: int
     """Connected components of the navigation graph as drawn."""
@@ -56,7 +59,7 @@ def check_world(world: World, roadmap: Roadmap, radius: float) -> WorldFacts:
     """Return the facts of all levels of `world` and of `roadmap`, for robots of `radius` metres."""
     edges = unique_edges(world)
     label = components(len(world.vertices), edges)
-    merged = sum(len(group) - 1 for group in duplicates(world))
+    same, repeated = duplicates(world), _repeated(world)
     grid = roadmap.grid
     width, height = size(world)
     return WorldFacts(
@@ -69,8 +72,9 @@ def check_world(world: World, roadmap: Roadmap, radius: float) -> WorldFacts:
         lifts=len(world.lifts),
         obstacles=sum(len(level.obstacles) for level in world.levels),
         vertices=len(world.vertices),
+        shared=len(same) - len(repeated),
         edges=len(edges),
-        components=len(np.unique(label)) - merged,
+        components=len(np.unique(label)) - sum(len(group) - 1 for group in same),
         cells=None if grid is None else grid.shape[0] * grid.shape[1],
         free=None if grid is None else len(roadmap.distinct),
         blocked=None if grid is None else grid.shape[0] * grid.shape[1] - len(roadmap.distinct),
@@ -81,7 +85,8 @@ def check_world(world: World, roadmap: Roadmap, radius: float) -> WorldFacts:
             *_graph_faults(world),
             *_clearance_faults(world, radius),
             *_roadmap_faults(world, roadmap),
-            *_duplicates(world),  # last, because maps with several graphs have many
+            *(f"{called(world, group[0])} is {len(group)} vertices in one position" for group in repeated),
+            *_names(world),
         ),
         narrow=tuple(_narrow(world, 2 * radius)),
         sweeps=tuple(check_door_sweeps(world, roadmap, radius)),
@@ -105,10 +110,28 @@ def size(world: World) -> tuple[float, float]:
     return float(width), float(height)
 
 
-def _duplicates(world: World) -> Iterator[str]:
-    for group in duplicates(world):
-        graphs = sorted({lane.graph for lane in world.lanes if {lane.start, lane.end} & set(group)})
-        yield f"{called(world, group[0])} is {len(group)} vertices in one position (graphs {graphs})"
+def _repeated(world: World) -> list[tuple[int, ...]]:
+    """Vertices in one position that are not one place of several graphs, which has one vertex for each of them."""
+    of = graphs(world)
+    return [
+        group
+        for group in duplicates(world)
+        if not all(of[vertex] for vertex in group)
+        or sum(len(of[vertex]) for vertex in group) > len(set().union(*(of[vertex] for vertex in group)))
+    ]
+
+
+def _names(world: World) -> Iterator[str]:
+    """Names that stand for several places or doors."""
+    places: dict[str, set[tuple[int, float, float]]] = defaultdict(set)
+    for vertex in world.vertices:
+        places[vertex.name].add((vertex.level, vertex.x, vertex.y))
+    for name, where in places.items():
+        if name and len(where) > 1:
+            listed = ", ".join(f"({x:.2f}, {y:.2f}){_on(world, level)}" for level, x, y in sorted(where))
+            yield f"{len(where)} places are named {name}: {listed}"
+    doors = Counter(door.name for level in world.levels for door in level.doors)
+    yield from (f"{count} doors are named {name}" for name, count in doors.items() if name and count > 1)
 
 
 def _graph_faults(world: World) -> list[str]:

@@ -38,6 +38,7 @@ COMMANDS = {
     "check": "check a plugin against the contract of its kind",
     "new-plugin": "write a working plugin to start from",
     "schema": "print the JSON Schema of configurations, for editors",
+    "completion": "print a script with which shells complete commands and options",
     "info": "print facts about machine and installation, for bug reports",
 }
 INTERRUPTED = 130

@@ -24,7 +24,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
         "One row for each configuration, over its seeds and repeats, with 95 % intervals and n; then the same over the"
-        " scenarios that all have in common, and paired tests. docs/explanation/statistics.md has every rule."
+        " scenarios that all have in common, paired tests, and last the answer. The page has every rule."
     )
     parser.add_argument(
         "folders", nargs="+", metavar="DIR", help="results folders; of one run in several, the later wins"
@@ -114,16 +114,10 @@ def _write_page(report: "Report", answer: "Answer", page: Path, most: int) -> No
 
 
 def _print(report: "Report", answer: "Answer") -> None:
-    from mrpbench_core.report.rules import RULES
-
-    for line in answer.lines(PARTS):
-        print(printable(line))
-    print()
     for table in report.tables(brief=True):
         print_wide(table)
-    print("Rules:")
-    for name, words in RULES:
-        print(f"- {name}: {words}")
+    for line in answer.lines(PARTS):
+        print(printable(line))
 
 
 def _write(name: str, content: str) -> None:

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from mrpbench_core.cli.input.arguments import add_configuration, split_words
 from mrpbench_core.config.study import load_studies
+from mrpbench_core.engine.prepare.make_instance import build_run_instance
+from mrpbench_core.engine.prepare.question import Question
 from mrpbench_core.engine.processes.call import in_worker
 from mrpbench_core.engine.stage import ignore
-from mrpbench_core.engine.stages.prepare import build_run_instance
-from mrpbench_core.engine.stages.question import Question
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.scenario import write_scenario
 from mrpbench_core.files.text import counted

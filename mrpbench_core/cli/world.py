@@ -29,7 +29,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "world", metavar="FILE|NAME", help="a .building.yaml, .map or map_server .yaml file, or a built-in world"
     )
-    parser.add_argument("--level", help="load only this level of a building (default: all levels)")
+    parser.add_argument(
+        "--level", help="load only this level of a building (default: all levels, or the first if it has no lanes)"
+    )
     parser.add_argument(
         "--roadmap",
         metavar="NAME",
@@ -72,6 +74,8 @@ def examined(words: dict[str, Any]) -> dict[str, Any]:
     arguments = argparse.Namespace(**words)
     fleet = Fleet(robots=(load_robot(arguments.robot),))
     world = world_source(arguments.world, arguments.level).load()
+    if len(world.levels) > 1 and not world.lanes and arguments.roadmap is None:  # no roadmap spans them
+        world = world_source(arguments.world, world.levels[0].name).load()
     roadmap = _builder(arguments, world).build(world, fleet)
     facts = check_world(world, roadmap, fleet.robots[0].radius)
     if arguments.render is not None:
@@ -93,7 +97,7 @@ def _builder(arguments: argparse.Namespace, world: "World") -> "RoadmapBuilder":
     from mrpbench_core.plugins.registry import Registry
 
     raster = "lanes" if world.lanes or arguments.compatible else "grid"
-    several = len(world.levels) > 1 and bool(world.lanes)  # which no raster has
+    several = len(world.levels) > 1  # which no raster has
     name = arguments.roadmap or ("graph" if several else raster)
     given = {"cell_size": arguments.cell_size, "compatible": arguments.compatible}
     if several and arguments.roadmap is None:  # then --cell-size is that of the conversion
@@ -150,6 +154,7 @@ def _print(facts: Mapping[str, Any]) -> None:
         ("levels, lifts", f"{facts['levels']}, {facts['lifts']}"),
         ("walls, doors, furniture", f"{facts['walls']}, {facts['doors']}, {facts['obstacles']}"),
         ("vertices", facts["vertices"]),
+        *([("places of several graphs", facts["shared"])] if facts["shared"] else []),
         ("edges", facts["edges"]),
         ("components", facts["components"]),
         ("cells", facts["cells"]),

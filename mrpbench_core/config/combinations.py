@@ -5,7 +5,6 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.api.discrete import DiscreteSimulator
 from mrpbench_core.config.items import Item
 from mrpbench_core.config.settings import (
     EXECUTION,
@@ -42,7 +41,7 @@ def refusals(config: RunConfig, root: Item) -> list[InputError]:
         return [_place(root, "delays.draws").location.error("delays.draws", "needs `execution: schedule_only`")]
     if config.simulator is None:
         return [] if config.tasks is None else [_place(root, "tasks").location.error("tasks", "needs a simulator")]
-    if isinstance(config.simulator, DiscreteSimulator):
+    if config.simulator.executes_runs:
         if config.tasks is None:
             return [_place(root, "tasks").location.error("tasks", f"{_name(config.simulator)} needs a task source")]
         reason = f"means nothing with {_name(config.simulator)}, which counts steps"
@@ -82,6 +81,7 @@ class IdleOptions:
 
     def __init__(self) -> None:
         self._idle: dict[str, str] = {}
+        self._of_components: dict[str, None] = {}
         self._effective: set[str] = set()
         self._shared = Shared()
 
@@ -97,8 +97,9 @@ class IdleOptions:
                 self._idle.setdefault(key, str(place.location.error(key, reason)))
 
     def notes(self) -> tuple[str, ...]:
-        """One line for each option."""
-        return tuple(line for key, line in self._idle.items() if key not in self._effective)
+        """One line for each option, and the notes of components."""
+        idle = (line for key, line in self._idle.items() if key not in self._effective)
+        return (*idle, *self._of_components)
 
     def _of_run(self, config: RunConfig, root: Item) -> dict[str, str]:
         """Return the reason for each setting without effect in a run, whether the file names it or not."""
@@ -114,6 +115,7 @@ class IdleOptions:
                 if isinstance(component, Component):
                     block = f"{key}.{number}" if isinstance(item.value, list) else key
                     idle = self._shared(_idle_options, component)
+                    self._of_components |= dict.fromkeys(self._shared(_notes, component))
                     found |= {f"{block}.{name}": IDLE + reason for name, reason in idle.items()}
         if all(entry.graph is None or not _is(config.roadmap, "graph") for entry in config.fleet):
             found |= {
@@ -128,6 +130,10 @@ def _idle_options(component: Component) -> Mapping[str, str]:
     return component.idle_options()
 
 
+def _notes(component: Component) -> tuple[str, ...]:
+    return component.notes()
+
+
 def _of_planning_only(config: RunConfig) -> Iterator[tuple[str, str]]:
     for key in (*ONLY_EXECUTION, *EXECUTION, "export", "recording"):
         if key != "plan_filter" or config.plan_filter != "none":
@@ -136,7 +142,7 @@ def _of_planning_only(config: RunConfig) -> Iterator[tuple[str, str]]:
 
 def _of_executions(config: RunConfig) -> Iterator[tuple[str, str]]:
     localizer = config.localizer
-    if isinstance(config.simulator, DiscreteSimulator):
+    if config.simulator is not None and config.simulator.executes_runs:
         for key in (*BETWEEN_STEPS, *EXECUTION):
             yield key, f"{IDLE}{_name(config.simulator)} counts steps, and gives tasks to robots itself"
         return

@@ -44,7 +44,7 @@ def union(read: Read, item: Item, expected: Expected, key: str) -> Any:
         members.remove(str if is_yaml_file(item.value) else Path)
     if len(members) == 1:
         return read(item, expected._replace(kind=members[0]), key)
-    members.sort(key=lambda member: member is not type(item.value))
+    members.sort(key=lambda member: (member is not type(item.value), member is str))  # every scalar fits text
     failures = []
     for choice in members:
         try:

@@ -40,6 +40,8 @@ class Item:
     """Location of the value."""
     key: Location
     """Location of its key; the same as `location` for values without a key."""
+    text: str | None = None
+    """A scalar as its file spells it, which is its value where text is expected: `1.10`, `007`."""
 
     @property
     def data(self) -> Any:
@@ -51,17 +53,18 @@ class Item:
         return self.value
 
 
-def from_document(document: Document) -> Item:
-    """Return the items of a file with their locations."""
+def from_document(document: Document, place: Location | None = None) -> Item:
+    """Return the items of a file with their locations, or all with the location `place`."""
 
     def build(data: Any, steps: Steps) -> Item:
-        location = Location(document.file, *document.mark(steps))
+        location = place or Location(document.file, *document.mark(steps))
         value: Any = data
         if isinstance(data, dict):
             value = {key: build(inner, (*steps, key)) for key, inner in data.items()}
         elif isinstance(data, list):
             value = [build(inner, (*steps, index)) for index, inner in enumerate(data)]
-        return Item(value, location, Location(document.file, *document.mark(steps, key=True)))
+        key = place or Location(document.file, *document.mark(steps, key=True))
+        return Item(value, location, key, document.text(steps))
 
     return build(document.data, ())
 

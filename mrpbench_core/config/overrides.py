@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import attrs
 
-from mrpbench_core.config.items import COMMAND_LINE, Location, from_data
+from mrpbench_core.config.items import COMMAND_LINE, Item, Location, from_document
 from mrpbench_core.config.matrix import Axis, Matrix, check_name, rows_of
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.files.errors import InputError, InputErrors
@@ -46,7 +46,7 @@ def _parse(text: str, varied: set[str]) -> Axis:
     if not equals or not name:
         raise InputErrors(location.error("", f"expected key=value, got {text!r}"))
     try:
-        item = from_data(loads(written).data if written.strip() else "", location)
+        item = from_document(loads(written), location) if written.strip() else Item("", location, location)
     except InputError as error:
         raise InputErrors(location.error(name, error.message, error.hint)) from None
     if name.partition(".")[0] == "matrix":

@@ -8,7 +8,9 @@ import attrs
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.config.content import content_hash
+from mrpbench_core.config.hints import to_matrix
 from mrpbench_core.config.items import Item
+from mrpbench_core.config.maps import map_plugin
 from mrpbench_core.config.scalars import Unfit, show
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.plugins.registry import Registry
@@ -47,6 +49,17 @@ class References:
             raise InputErrors(item.location.error(key, f"has changed since this configuration was written: {path}"))
         return path
 
+    def plugin_of_map(self, chosen: Item, key: str) -> Item:
+        """Return the name of the plugin that reads the map that an item names.
+
+        Raises:
+            InputErrors: the map cannot be read.
+        """
+        try:
+            return attrs.evolve(chosen, value=map_plugin(Path(os.path.normpath(self.folder / chosen.value))))
+        except InputError as error:
+            raise InputErrors(chosen.location.error(key, str(error))) from None
+
     def plugin(self, chosen: Item, kind: type[Component], key: str, default: str | None) -> type[Component]:
         """Return the class that an item names; `default` is the plugin that is chosen where none is named.
 
@@ -56,7 +69,7 @@ class References:
         registry = Registry(kind)
         if not isinstance(chosen.value, str) or not chosen.value:
             expected = f"expected the name of a {registry.kind} or a block, got {show(chosen.value)}"
-            raise InputErrors(chosen.location.error(key, expected))
+            raise InputErrors(chosen.location.error(key, expected, to_matrix(chosen.value, key)))
         try:
             return registry.get(chosen.value, self.folder, self.sources)
         except InputError as error:

@@ -1,4 +1,4 @@
-"""Strict scalars: numbers and text are never converted into each other."""
+"""Strict scalars: text is never converted into numbers, and numbers only into the text that spells them in a file."""
 
 import enum
 import math
@@ -16,8 +16,14 @@ class Unfit(ValueError):  # noqa: N818 - a value that does not fit its type, on 
         super().__init__(message)
 
 
-def scalar(value: Any, kind: Any, unit: str | None) -> Any:
+def scalar(value: Any, kind: Any, unit: str | None, text: str | None = None) -> Any:
     """Return `value` as the scalar type `kind` (bool, int, float or str).
+
+    Args:
+        value: the value.
+        kind: the type.
+        unit: the unit of a number.
+        text: how a file spells the value. Names keep that spelling, with and without quotes: `1.10`, `007`.
 
     Raises:
         Unfit: it has another type.
@@ -28,8 +34,9 @@ def scalar(value: Any, kind: Any, unit: str | None) -> Any:
         return _with_unit(whole_quantity, value, unit)
     if type(value) is kind:
         return value
-    hint = "put it in quotes" if kind is str and isinstance(value, bool | int | float) else None
-    raise Unfit(f"expected {describe(kind, unit)}, got {show(value)}", hint)
+    if kind is str and text is not None:
+        return text
+    raise Unfit(f"expected {describe(kind, unit)}, got {show(value)}")
 
 
 def literal(value: Any, kind: Any) -> Any:

@@ -15,6 +15,7 @@ from typing import Any, Literal
 import attrs
 
 from mrpbench_core.api.component import Component
+from mrpbench_core.api.world import WorldSource
 from mrpbench_core.config.canonical import json_scalar
 from mrpbench_core.config.settings import NOT_IDENTIFYING, FleetEntry, RunConfig
 from mrpbench_core.files.errors import InputError
@@ -166,7 +167,8 @@ class _Schema:
             with suppress(Exception, SystemExit):  # help, defaults and types may be code of the plugin
                 blocks[name] = self._block(name, cls)
         local = {"type": "object", "properties": {"plugin": LOCAL}, "required": ["plugin"]}
-        return {"oneOf": [{"enum": list(blocks)}, LOCAL, *blocks.values(), local]}
+        maps = [{"type": "string", "pattern": r"\.(map|ya?ml)$"}] if kind is WorldSource else []
+        return {"oneOf": [{"enum": list(blocks)}, LOCAL, *maps, *blocks.values(), local]}
 
     def _block(self, name: str, cls: type[Component]) -> dict[str, Any]:
         """Return the schema of a plugin with its options."""

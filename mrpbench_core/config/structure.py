@@ -8,6 +8,7 @@ import enum
 import logging
 import typing
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 from types import UnionType
 from typing import Any, Literal, TypeVar, cast
@@ -15,8 +16,11 @@ from typing import Any, Literal, TypeVar, cast
 import attrs
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.config.containers import Expected, mapping, sequence, union
+from mrpbench_core.api.world import WorldSource
+from mrpbench_core.config.containers import Expected, is_block, mapping, sequence, union
+from mrpbench_core.config.hints import plugins_with, to_matrix
 from mrpbench_core.config.items import Item, Location, from_data
+from mrpbench_core.config.maps import SUFFIXES
 from mrpbench_core.config.references import References, short_name
 from mrpbench_core.config.scalars import Unfit, literal, member, scalar, show
 from mrpbench_core.config.settings import EXECUTION, WITHOUT_PHYSICS, FleetEntry, RunConfig
@@ -114,7 +118,7 @@ class Structure:
         except InputErrors as errors:
             return errors
         except Unfit as error:
-            return InputErrors(item.location.error(key, str(error), error.hint))
+            return InputErrors(item.location.error(key, str(error), error.hint or to_matrix(item.value, key, error)))
 
     def _read(self, item: Item, expected: Expected, key: str) -> Any:
         kind = expected.kind
@@ -130,7 +134,7 @@ class Structure:
         if origin in (dict, Mapping) or kind in (dict, Mapping):
             return self._mapping(item, expected, key)
         if kind in _SCALARS:
-            return scalar(item.value, kind, expected.unit)
+            return scalar(item.value, kind, expected.unit, item.text)
         if kind is Any:
             return item.data
         if kind is Path:
@@ -169,8 +173,10 @@ class Structure:
         if chosen is None:
             word = Registry(kind).kind
             raise InputErrors(item.location.error(key, f"names no {word}", f"add `plugin:` with the name of a {word}"))
-        cls = self._references.plugin(chosen, kind, key, default)
         options = {name: inner for name, inner in block.value.items() if name != "plugin"}
+        if kind is WorldSource and str(chosen.value).endswith(SUFFIXES):
+            options["file"], chosen = chosen, self._references.plugin_of_map(chosen, key)
+        cls = self._references.plugin(chosen, kind, key, default)
         inner = attrs.evolve(block, value=options)
         if is_of(cls):
             return cast("Component", self._options(inner, cls, key, {}, chosen.value))
@@ -202,11 +208,12 @@ class Structure:
         values: dict[str, Any] = {}
         for name, inner in item.value.items():
             if name not in fields:
-                owner = f" of {plugin!r}" if plugin else ""
-                hint = suggest(name, fields, "there are" if fields else "it has")
-                errors.append(
-                    inner.key.error(_join(key, name), f"unknown option{owner}" if key else "unknown key", hint)
+                what = f"unknown option{f' of {plugin!r}' if plugin else ''}" if key else "unknown key"
+                hint = (
+                    plugins_with(name, cls) if plugin else None if key else self._inside(name, {**added, **item.value})
                 )
+                hint = hint or suggest(name, fields, "there are" if fields else "it has")
+                errors.append(inner.key.error(_join(key, name), what, hint))
         # Validators get a stand-in with the values read so far and the defaults of the others.
         stand_in = stand_in_of(cls)
         for name, field in fields.items():
@@ -230,6 +237,23 @@ class Structure:
             return cls(**values)
         except Exception as error:  # noqa: BLE001 - a plugin's own check of its options
             raise InputErrors(item.location.error(key, words_of(error))) from None
+
+    def _inside(self, name: str, given: Mapping[str, Item]) -> str | None:
+        """Return the hint for an option that was written outside of its block; None if no block has it."""
+        places = []
+        for field in attrs.fields(RunConfig):
+            for kind in (field.type, *typing.get_args(field.type)):
+                if not is_block(kind):
+                    continue
+                with suppress(InputErrors, Unfit):
+                    if issubclass(kind, Component):
+                        block = given.get(field.name)
+                        chosen = block.value.get("plugin") if block and isinstance(block.value, dict) else block
+                        default = field.metadata.get("written_default")
+                        chosen = chosen or from_data(default if isinstance(default, str) else "none", Location())
+                        kind = self._references.plugin(chosen, kind, field.name, None)
+                    places += [f"`{field.name}.{name}`"] if name in attrs.fields_dict(kind) else []
+        return f"did you mean {' or '.join(places)}?" if places else None
 
     def _field(self, item: Item, field: Any, key: str) -> Any:
         default = field.metadata.get("written_default", attrs.NOTHING)

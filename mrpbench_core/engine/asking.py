@@ -5,10 +5,9 @@ from typing import Any
 import attrs
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.api.discrete import DiscreteSimulator
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.execution.loop_inputs import granted_localizer
-from mrpbench_core.engine.stages.question import SETTINGS, facts_of
+from mrpbench_core.engine.prepare.question import SETTINGS, facts_of
 from mrpbench_core.plugins.provenance import components_in, is_of_others, title
 from mrpbench_core.referee.asked import Asked
 from mrpbench_core.referee.plans import Promises
@@ -25,7 +24,7 @@ def asked_of(config: RunConfig, run_id: str) -> Asked:
         run_id=run_id,
         promises=Promises.of(config.planner),
         executes=config.executes,
-        driven=config.simulator is not None and not isinstance(config.simulator, DiscreteSimulator),
+        driven=config.simulator is not None and not config.simulator.executes_runs,
         tasks=config.tasks is not None,
         limit_s=config.limits.execution,
         period=1 / config.control_rate,

@@ -7,7 +7,7 @@ from typing import Any
 import attrs
 
 from mrpbench_core.api.metric import Metric
-from mrpbench_core.engine.drive import Claims
+from mrpbench_core.engine.drive.drive import Claims
 from mrpbench_core.engine.record import RunError, RunRecord
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.printing import printable

@@ -5,12 +5,12 @@ Studies do the same in three processes: see `mrpbench_core.engine.processes.run_
 
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.asking import asked_of
-from mrpbench_core.engine.drive import drive
+from mrpbench_core.engine.drive.drive import drive
 from mrpbench_core.engine.judging import Prepared, end, keep, record_of
+from mrpbench_core.engine.prepare.make_instance import make_instance
+from mrpbench_core.engine.prepare.question import Question
 from mrpbench_core.engine.record import RunRecord
 from mrpbench_core.engine.stage import Announce, RunEnded, RunInputs, ignore
-from mrpbench_core.engine.stages.prepare import make_instance
-from mrpbench_core.engine.stages.question import Question
 from mrpbench_core.model.runs.instance import Instance
 from mrpbench_core.model.runs.status import Stage
 from mrpbench_core.plugins.hooks import Hooks

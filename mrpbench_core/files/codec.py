@@ -69,7 +69,7 @@ def _converter() -> cattrs.Converter:
 
 def _plain(value: Any, kind: Any) -> Any:
     if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
-        raise ValueError(f"{value!r:.40} is no {getattr(kind, '__name__', 'number')}")
+        raise ValueError(f"{value!r:.40} is not {getattr(kind, '__name__', 'number')}")
     if isinstance(value, int) and not -(2**63) <= value < 2**63:
         raise ValueError("the integer has more than 64 bits")
     return value

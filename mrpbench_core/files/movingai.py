@@ -22,7 +22,7 @@ def read_movingai_map(file: Path) -> Bool:
     """Return the blocked cells, bool[height,width], row 0 on top.
 
     Raises:
-        InputError: the file is no MovingAI map; with line and column.
+        InputError: the file is not a MovingAI map; with line and column.
     """
     lines = read_text(file).splitlines()
     height, width = _header(file, lines)

@@ -94,8 +94,12 @@ def _described(document: Document) -> dict[str, Any]:
     values = _fields(document, Urdf, steps)
     if not (isinstance(values["file"], str) and values["file"]):
         raise document.error("must be a file's name", ("urdf", "file"))
-    wheels = values["wheels"]
-    if not (isinstance(wheels, list) and len(wheels) == 2 and all(isinstance(name, str) for name in wheels)):
+    listed = values["wheels"]
+    names = (
+        [document.text((*steps, "wheels", index)) for index in range(len(listed))] if isinstance(listed, list) else []
+    )
+    wheels = [name for name in names if name]
+    if not len(wheels) == len(names) == 2:
         raise document.error("must be the joints of two wheels: [left, right]", ("urdf", "wheels"))
     assert document.file is not None
     file = (document.file.parent / values["file"]).absolute()
@@ -154,8 +158,8 @@ def _fields(document: Document, kind: type[attrs.AttrsInstance], steps: Steps) -
 
 
 def _name(document: Document) -> str:
-    name = document.data["name"]
-    if not (isinstance(name, str) and name):
+    name = document.text(("name",))
+    if not name:
         raise document.error("must be text", ("name",))
     return name
 

@@ -109,10 +109,10 @@ class TaskReader:
         return [self._goal((*steps, index)) for index in range(self.length(steps))]
 
     def _goal(self, steps: Steps) -> Place:
-        value = self.at(steps)
-        if self._find is not None and isinstance(value, str):
+        name = self.document.text(steps)
+        if self._find is not None and name is not None:
             try:
-                return self._find(value)
+                return self._find(name)
             except InputError as error:
                 raise self.document.error(error.message, steps, hint=error.hint) from None
         self.mapping(steps, {"x", "y", "yaw", "level"}, {"x", "y"})
@@ -154,9 +154,11 @@ class TaskReader:
 
     def text(self, mapping: Mapping[str, Any], steps: Steps) -> str:
         """Return the name in a mapping, or ''."""
-        name = mapping.get("name", "")
-        if not isinstance(name, str):
-            raise self.document.error("must be text", (*steps, "name"), hint="put it in quotes")
+        if mapping.get("name") is None:
+            return ""
+        name = self.document.text((*steps, "name"))
+        if name is None:
+            raise self.document.error("must be text", (*steps, "name"))
         return name
 
     def length(self, steps: Steps) -> int:
@@ -202,7 +204,7 @@ def _read_table(path: Path, find: Find) -> list[FiledTask]:
             raise InputError("the first line must name the column 'errands', and each column once", file=path, line=1)
         return [_Row(path, rows.line_num, columns, row).read(find) for row in rows if row]
     except csv.Error as error:
-        raise InputError(f"is no CSV: {error}", file=path, line=rows.line_num) from None
+        raise InputError(f"is not CSV: {error}", file=path, line=rows.line_num) from None
 
 
 class _Row:
@@ -224,7 +226,7 @@ class _Row:
             raise self._error(f"service: has {len(service)} times instead of 1 or {len(errands)}")
         priority = self._number("priority", self._cells.get("priority", ""), 0.0)
         if priority != int(priority) or abs(priority) >= 2**31:
-            raise self._error(f"priority: {self._cells['priority']!r} is no whole number")
+            raise self._error(f"priority: {self._cells['priority']!r} is not a whole number")
         task = Task(
             **_places(errands),
             name=self._cells.get("name", ""),
@@ -247,7 +249,7 @@ class _Row:
                 raise self._error(f"errands: {error.message}", error.hint) from None
         level, yaw, *more = [*others, *(0.0, math.nan)[len(others) :]]
         if more or not math.isfinite(x + y) or level not in range(_LEVELS.max) or math.isinf(yaw):
-            raise self._error(f"errands: {word!r} is no place", "x y, x y level or x y level yaw")
+            raise self._error(f"errands: {word!r} is not a place", "x y, x y level or x y level yaw")
         return (x, y, yaw), int(level)
 
     def _seconds(self, column: str, word: str, default: float = 0.0) -> float:
@@ -264,7 +266,7 @@ class _Row:
         except ValueError:
             number = math.nan
         if not math.isfinite(number):
-            raise self._error(f"{column}: {word.strip()!r} is no finite number")
+            raise self._error(f"{column}: {word.strip()!r} is not a finite number")
         return number
 
     def _error(self, message: str, hint: str | None = None) -> InputError:

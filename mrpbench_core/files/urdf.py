@@ -17,6 +17,7 @@ from mrpbench_core.files.xml import parse_xml
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Urdf
 
+JOINTS = ("fixed", "continuous", "revolute", "prismatic", "floating", "planar")
 _ALIGNED = 0.999
 """Least cosine of the angle between the axis of a wheel and the y axis of the robot."""
 _SAME = 1e-3
@@ -51,7 +52,49 @@ def read_urdf(file: Path) -> ET.Element:
     if "xacro" in text and any("xacro" in element.tag for element in robot.iter()):
         where = position(text, text.index("<xacro"))[0] if "<xacro" in text else None
         raise InputError("is xacro", file=file, line=where, hint="expand it first: xacro FILE > robot.urdf")
+    _check_tree(robot, file)
     return robot
+
+
+def _check_tree(robot: ET.Element, file: Path) -> None:
+    """Check that the joints make one tree of the links."""
+    links, joints = (_named(robot, tag, file) for tag in ("link", "joint"))
+    above: dict[str, ET.Element] = {}
+    for name, joint in joints.items():
+        if joint.get("type") not in JOINTS:
+            kinds = f"types: {', '.join(JOINTS)}"
+            raise InputError(f"the joint {name!r} has the type {joint.get('type', '')!r}", file=file, hint=kinds)
+        for role in ("parent", "child"):
+            if (link := _link(joint, role)) not in links:
+                hint = did_you_mean(link, links, f"links: {', '.join(links)}")
+                raise InputError(f"the {role} of the joint {name!r} is {link!r}, not a link", file=file, hint=hint)
+        first = above.setdefault(link, joint)
+        if first is not joint:
+            raise InputError(f"the joints {first.get('name')!r} and {name!r} have one child, {link!r}", file=file)
+    roots = [link for link in links if link not in above]
+    if len(roots) > 1:
+        listed = ", ".join(map(repr, roots))
+        raise InputError(f"has {len(roots)} root links, {listed}", file=file, hint="joints should connect all links")
+    rooted = set(roots)
+    for link in links:
+        way: set[str] = set()
+        while link not in rooted:
+            if link in way:
+                raise InputError(f"the joint {above[link].get('name')!r} is its own ancestor", file=file)
+            way.add(link)
+            link = _link(above[link], "parent")
+        rooted |= way
+
+
+def _named(robot: ET.Element, tag: str, file: Path) -> dict[str, ET.Element]:
+    """Return the elements with a tag by their names."""
+    found: dict[str, ET.Element] = {}
+    for element in robot.iterfind(tag):
+        name = element.get("name", "")
+        if not name or name in found:
+            raise InputError(f"has two {tag}s {name!r}" if name else f"has a {tag} without a name", file=file)
+        found[name] = element
+    return found
 
 
 def mesh_files(robot: ET.Element, file: Path) -> dict[str, Path]:
@@ -101,7 +144,7 @@ def drive_of(robot: ET.Element, urdf: Urdf) -> DifferentialDrive:
         if joint.get("type") != "continuous":
             raise InputError(f"the wheel joint {name!r} is {joint.get('type')!r} instead of 'continuous'", file=file)
         frame = _frame(joint, above, file)
-        axis = frame[:3, :3] @ _numbers(joint.find("axis"), "xyz", (1.0, 0.0, 0.0), file)
+        axis = frame[:3, :3] @ numbers(joint.find("axis"), "xyz", (1.0, 0.0, 0.0), file)
         if abs(axis[1]) < _ALIGNED * np.linalg.norm(axis) or not axis.any():
             turn = ", ".join(f"{value:.2g}" for value in axis)
             raise InputError(
@@ -117,7 +160,7 @@ def drive_of(robot: ET.Element, urdf: Urdf) -> DifferentialDrive:
         raise InputError(f"the wheels {' and '.join(urdf.wheels)} are not on one axle", file=file)
     if len(set(radii)) > 1:
         raise InputError(f"the wheels {' and '.join(urdf.wheels)} have different sizes", file=file)
-    mass = sum(float(_numbers(link, "value", (0.0,), file)[0]) for link in robot.iterfind("link/inertial/mass"))
+    mass = sum(float(numbers(link, "value", (0.0,), file)[0]) for link in robot.iterfind("link/inertial/mass"))
     if mass <= 0:
         raise InputError("its links have no mass", file=file)
     middle = ((left + right) / 2).tolist()
@@ -132,14 +175,11 @@ def drive_of(robot: ET.Element, urdf: Urdf) -> DifferentialDrive:
 
 def _frame(joint: ET.Element, above: dict[str, ET.Element], file: Path) -> Float:
     """The pose f8[4,4] of a joint in the frame of the root link."""
-    frame, seen = _origin(joint, file), {joint}
+    frame = _origin(joint, file)
     while (upper := above.get(_link(joint, "parent"))) is not None:
         joint = upper
-        if joint in seen:
-            raise InputError(f"the joint {joint.get('name')!r} is its own ancestor", file=file)
         if joint.get("type") != "fixed":
             raise InputError(f"a driven wheel is attached to the joint {joint.get('name')!r}, which moves", file=file)
-        seen.add(joint)
         frame = _origin(joint, file) @ frame
     return frame
 
@@ -147,13 +187,13 @@ def _frame(joint: ET.Element, above: dict[str, ET.Element], file: Path) -> Float
 def _origin(joint: ET.Element, file: Path) -> Float:
     """Return the pose f8[4,4] from fixed-axis roll, pitch and yaw and the offset."""
     origin = joint.find("origin")
-    roll, pitch, yaw = _numbers(origin, "rpy", (0.0, 0.0, 0.0), file).tolist()
+    roll, pitch, yaw = numbers(origin, "rpy", (0.0, 0.0, 0.0), file).tolist()
     frame = np.eye(4)
     about_x = np.array([[1, 0, 0], [0, math.cos(roll), -math.sin(roll)], [0, math.sin(roll), math.cos(roll)]])
     about_y = np.array([[math.cos(pitch), 0, math.sin(pitch)], [0, 1, 0], [-math.sin(pitch), 0, math.cos(pitch)]])
     about_z = np.array([[math.cos(yaw), -math.sin(yaw), 0], [math.sin(yaw), math.cos(yaw), 0], [0, 0, 1]])
     frame[:3, :3] = about_z @ about_y @ about_x
-    frame[:3, 3] = _numbers(origin, "xyz", (0.0, 0.0, 0.0), file)
+    frame[:3, 3] = numbers(origin, "xyz", (0.0, 0.0, 0.0), file)
     return frame
 
 
@@ -161,7 +201,7 @@ def _radius(robot: ET.Element, link: str, file: Path) -> float | None:
     named = (it for it in robot.iterfind("link") if it.get("name") == link)  # no predicate takes all names
     for shape in (shape for it in named for shape in it.iterfind("collision/geometry/*")):
         if shape.tag in ("sphere", "cylinder"):
-            return float(_numbers(shape, "radius", (0.0,), file)[0])
+            return float(numbers(shape, "radius", (0.0,), file)[0])
     return None
 
 
@@ -170,7 +210,7 @@ def _link(joint: ET.Element, role: str) -> str:
     return "" if element is None else element.get("link", "")
 
 
-def _numbers(element: ET.Element | None, name: str, default: tuple[float, ...], file: Path) -> Float:
+def numbers(element: ET.Element | None, name: str, default: tuple[float, ...], file: Path) -> Float:
     """Return an attribute that has as many finite numbers as `default`."""
     text = None if element is None else element.get(name)
     if text is None or element is None:

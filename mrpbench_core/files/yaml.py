@@ -2,7 +2,8 @@
 
 It accepts the data of JSON, and comments, anchors and infinite numbers. Scalars follow the core schema of YAML 1.2.2
 §10.3 (`1e-3` is a number, `on` and `10:30` are text, `010` is ten), while PyYAML itself follows YAML 1.1. Keys are text
-as written. Tags, merge keys, duplicate keys and several documents are errors. Depth and alias expansion are bounded,
+as written. Tags, merge keys, duplicate keys and several documents are errors; `lenient` readers, for files of other
+programs, merge keys and accept a key twice with the same value, or once empty. Depth and alias expansion are bounded,
 and nothing recurses, so that no input can exhaust stack or memory.
 """
 
@@ -43,12 +44,13 @@ _NAMED: dict[str, Any] = {
 class _Place:
     """The location of a value, and those of all values inside it."""
 
-    __slots__ = ("column", "inside", "key", "line")
+    __slots__ = ("column", "inside", "key", "line", "text")
 
-    def __init__(self, mark: Any, key: Any = None) -> None:
+    def __init__(self, mark: Any, text: str | None = None) -> None:
         self.line: int = mark.line + 1
         self.column: int = mark.column + 1
-        self.key: _Place | None = key
+        self.text = text  # of a scalar that is not empty
+        self.key: _Place | None = None
         self.inside: dict[str | int, _Place] = {}
 
 
@@ -76,25 +78,32 @@ class Document:
                 place = place.key
         return place.line, place.column
 
+    def text(self, steps: Steps) -> str | None:
+        """Return the scalar at `steps` as the file spells it (`1.10`, `007`); None if it is empty or not a scalar."""
+        place = self._root
+        for step in steps:
+            place = place.inside[step]
+        return place.text
+
     def error(self, message: str, steps: Steps = (), *, key: bool = False, hint: str | None = None) -> InputError:
         """Return an InputError with the location at `steps`; see `mark`."""
         line, column = self.mark(steps, key=key)
         return InputError(message, file=self.file, line=line, column=column, hint=hint)
 
 
-def load(path: Path | str) -> Document:
+def load(path: Path | str, *, lenient: bool = False) -> Document:
     """Read a file.
 
     Raises:
         InputError: it cannot be read or is not strict YAML; the error names file, line and column.
     """
-    return loads(read_text(path), file=path)
+    return loads(read_text(path), file=path, lenient=lenient)
 
 
-def loads(text: str, *, file: Path | str | None = None) -> Document:
+def loads(text: str, *, file: Path | str | None = None, lenient: bool = False) -> Document:
     """Read a text; errors name `file`."""
     refuse_control_characters(text, file)
-    return _DocumentReader(None if file is None else Path(file)).read(text)
+    return _DocumentReader(None if file is None else Path(file), lenient).read(text)
 
 
 def plain_scalar(text: str) -> Any:
@@ -121,20 +130,22 @@ def plain_scalar(text: str) -> Any:
 class _Frame:
     """A sequence or mapping being read."""
 
-    __slots__ = ("height", "key", "open", "place", "size", "value")
+    __slots__ = ("height", "key", "merged", "open", "place", "size", "value")
 
     def __init__(self, value: Any, place: _Place) -> None:
         self.value = value
         self.place = place
         self.key: Any = None  # event of the key whose value comes next
         self.open = isinstance(value, dict | list)
+        self.merged: list[_Frame] = []  # what its merge key adds
         self.size = 1  # values in it, aliases expanded
         self.height = 1 if self.open else 0
 
 
 class _DocumentReader:
-    def __init__(self, file: Path | None) -> None:
+    def __init__(self, file: Path | None, lenient: bool) -> None:
         self.file = file
+        self.lenient = lenient
         self.anchors: dict[str, _Frame] = {}
         self.stack: list[_Frame] = []
         self.root: _Frame | None = None
@@ -183,7 +194,7 @@ class _DocumentReader:
         frame = self.stack[-1] if self.stack else None
         if frame is not None and frame.key is None and type(frame.value) is dict:
             if event.anchor:
-                self.anchors[event.anchor] = _Frame(text, _Place(event.start_mark))
+                self.anchors[event.anchor] = _Frame(text, _Place(event.start_mark, text))
             self._key(frame, text, event)
             return
         value = text
@@ -192,19 +203,30 @@ class _DocumentReader:
                 value = plain_scalar(text)
             except ValueError:
                 raise self._error("this number is too large", event.start_mark) from None
-        leaf = _Frame(value, _Place(event.start_mark))
+        leaf = _Frame(value, _Place(event.start_mark, None if value is None else text))
         if event.anchor:
             self.anchors[event.anchor] = leaf
         self._put(leaf)
 
     def _key(self, frame: _Frame, text: str, event: Any) -> None:
-        if text == "<<" and event.implicit[0]:
+        if text == "<<" and event.implicit[0] and not self.lenient:
             raise self._error("merge keys are not supported; repeat the keys", event.start_mark)
-        if text in frame.value:
-            first = frame.place.inside[text].key
-            hint = None if first is None else f"first in line {first.line}"
-            raise self._error(f"duplicate key {text!r}", event.start_mark, hint)
+        if text in frame.value and not self.lenient:
+            raise self._duplicate(frame, event)
         frame.key = event
+
+    def _duplicate(self, frame: _Frame, event: Any) -> InputError:
+        first = frame.place.inside[event.value].key
+        hint = None if first is None else f"first in line {first.line}"
+        return self._error(f"duplicate key {event.value!r}", event.start_mark, hint)
+
+    def _merge(self, frame: _Frame) -> None:
+        """Add the keys of merged mappings that a mapping does not have itself."""
+        for mapping in frame.merged:
+            for key, value in mapping.value.items():
+                if key not in frame.value:
+                    frame.value[key] = value
+                    frame.place.inside[key] = mapping.place.inside[key]
 
     def _open(self, value: Any, event: Any) -> None:
         self._check(event)
@@ -218,6 +240,7 @@ class _DocumentReader:
     def _close(self) -> None:
         frame = self.stack.pop()
         frame.open = False
+        self._merge(frame)
         self._put(frame)
 
     def _alias(self, event: Any) -> None:
@@ -231,7 +254,7 @@ class _DocumentReader:
         self.expanded += anchored.size
         if self.expanded > ALIAS_LIMIT:
             raise self._error(f"aliases add more than {ALIAS_LIMIT} values", event.start_mark)
-        copy = _Frame(anchored.value, _Place(event.start_mark))
+        copy = _Frame(anchored.value, _Place(event.start_mark, anchored.place.text))
         copy.open, copy.size, copy.height = False, anchored.size, anchored.height
         copy.place.inside = anchored.place.inside
         self._put(copy)
@@ -247,12 +270,28 @@ class _DocumentReader:
         if type(frame.value) is dict:
             key = frame.key
             frame.key = None
+            if key.value == "<<" and key.implicit[0]:
+                frame.merged += self._mappings(done, key)
+                return
+            if frame.value.get(key.value) is not None:
+                if done.value is not None and done.value != frame.value[key.value]:
+                    raise self._duplicate(frame, key)
+                return
             done.place.key = _Place(key.start_mark)
             frame.value[key.value] = done.value
             frame.place.inside[key.value] = done.place
         else:
             frame.place.inside[len(frame.value)] = done.place
             frame.value.append(done.value)
+
+    def _mappings(self, done: _Frame, key: Any) -> list[_Frame]:
+        """The mappings that the value of a merge key names: one, or a list of them, of which the first wins."""
+        several = done.value if type(done.value) is list else [done.value]
+        if not all(type(value) is dict for value in several):
+            raise self._error("a merge key needs a mapping, or a list of mappings", key.start_mark)
+        if type(done.value) is dict:
+            return [done]
+        return [_Frame(value, done.place.inside[index]) for index, value in enumerate(several)]
 
     def _check(self, event: Any) -> None:
         if event.tag is not None:

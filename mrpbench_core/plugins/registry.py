@@ -72,8 +72,12 @@ class Registry(Generic[C]):
         """Import the component called `name`; see `load_local` for `folder` and `sources`.
 
         Raises:
-            InputError: see `find`; or the import fails, or the class breaks the contract of its kind.
+            InputError: see `find`; or the name is reserved, the import fails, or the class breaks the contract of its
+                kind.
         """
+        short = name.partition("@")[0].rpartition(":")[2]
+        if short in self.base.reserved:
+            raise InputError(f"a {self.kind} cannot be called {short!r}: records have a part of that name")
         if is_local(name):
             return self._accept(load_local(name, folder or Path.cwd(), sources), f"{self.kind} {name!r}")
         provider = self.find(name)

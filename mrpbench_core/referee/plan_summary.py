@@ -12,6 +12,7 @@ import numpy as np
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
+from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.referee.plans import Promises
 
 _name = functools.cache(str)  # NumPy takes 15 µs to spell a type
@@ -26,6 +27,7 @@ def plan_summary(promises: Promises, problem: Problem, result: PlanResult) -> di
         result: the answer, which breaks no promise within this run.
     """
     problem = promises.asked(problem)
+    _remember(problem.roadmap)
     setting = fingerprint(attrs.evolve(problem, goals=(), features=problem.features & {Feature.FOOTPRINTS}))
     sound = result.plan is not None and not result.statistics.get("conflicts")
     bounds = bool({Promise.OPTIMAL, Promise.BOUNDED} & promises.kept) and not result.clock_bound
@@ -42,7 +44,17 @@ def plan_summary(promises: Promises, problem: Problem, result: PlanResult) -> di
 
 def fingerprint(value: Any) -> str:
     """Return 32 hexadecimal digits that are the same for equal values of the model (BLAKE2b, RFC 7693)."""
-    return _digest(value, {}).hex()
+    return _digest(value, {id(roadmap): digest for roadmap, digest in _ROADMAPS}).hex()
+
+
+_ROADMAPS: list[tuple[Roadmap, bytes]] = []
+"""The last roadmaps with their digests: most runs that a process judges have the same."""
+_KEPT = 4
+
+
+def _remember(roadmap: Roadmap) -> None:
+    if not any(known is roadmap for known, _ in _ROADMAPS):
+        _ROADMAPS[:] = [*_ROADMAPS[1 - _KEPT :], (roadmap, _digest(roadmap, {}))]
 
 
 def _digest(value: Any, known: dict[int, bytes]) -> bytes:

@@ -13,7 +13,7 @@ from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.report.estimation.comparison import Comparison, compare_settings
 from mrpbench_core.report.estimation.estimates import Numbers, numbers_of
 from mrpbench_core.report.estimation.groups import Setting, find_settings, group_runs
-from mrpbench_core.report.reading.columns import Columns, direction, primary_columns
+from mrpbench_core.report.reading.columns import Columns, direction, primary_columns, shown_columns
 from mrpbench_core.report.reading.folders import read_folders
 from mrpbench_core.report.reading.runs import Runs
 from mrpbench_core.report.tables.build import (
@@ -48,7 +48,7 @@ class Report:
     """None without SciPy, which does the tests."""
 
     def tables(self, brief: bool = False) -> list[Table]:
-        """Return the tables; `brief` counts the comparisons that cannot be significant instead of showing them."""
+        """Return the tables; `brief` leaves out comparisons that cannot be significant, and empty tables."""
         means = means_table(self.settings, self.numbers, self.columns, self.runs) if self.columns else None
         common = common_table(self.settings, self.numbers, self.columns, self.runs)
         if has("scipy"):
@@ -62,7 +62,7 @@ class Report:
             common,
             pairs,
         )
-        return [table for table in found if table is not None]
+        return [table for table in found if table is not None and (table.rows or table is UNTESTED or not brief)]
 
     def failures_first(self) -> Int:
         """Return the indices of all runs: failed ones first, and every configuration in turn."""
@@ -115,14 +115,14 @@ def choose_columns(runs: Runs, known: Columns, metrics: Sequence[str] | None) ->
     Args:
         runs: which hold the values.
         known: all columns.
-        metrics: names, also former ones; None = the primary columns, `["all"]` = all.
+        metrics: names, also former ones; None = see `shown_columns`, `["all"]` = all.
 
     Raises:
         InputError: no run has a value of one that is asked for.
     """
     offered = [name for name in runs.values if name not in RATES]
     if metrics is None:
-        return tuple(column for column in primary_columns(known) if column.name in offered)
+        return tuple(column for column in shown_columns(known, runs.values) if column.name in offered)
     if list(metrics) == ["all"]:
         return tuple(known[name] for name in offered)
     current = {alias: column.name for column in known.values() for alias in column.aliases}

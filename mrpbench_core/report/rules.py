@@ -38,8 +38,8 @@ have in common (for success, the scenarios for which every group found a plan). 
 Answer: Configurations are ranked by their mean over the units that all of them have. One that fails more often, by
 {100 * (OUTCOME[0].threshold or 0):.0f} points or more, comes after the others; its mean is over the units of these that
 it has. A difference is noticeable if test and interval show it, and the means differ at least by the threshold that the
-column declares. Configurations are practically the same if the interval excludes every noticeable difference, and not
-told apart if neither is shown.
+column declares. Configurations are identical if they have the same value in each scenario, and practically the same
+if the interval excludes every noticeable difference. There is no clear difference if none of this is shown.
 
 Factors: If a study varies several choices, each is answered for on its own: its levels are compared on the scenarios
 and the combinations of the other choices that they have in common. The differences of a scenario are averaged, so that

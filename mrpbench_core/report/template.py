@@ -89,7 +89,7 @@ def _fill(text: str, parts: Mapping[str, str], *, keep: bool = False) -> str:
 
 
 def _hashes(text: str) -> dict[str, list[str]]:
-    """The SHA-256 of each script and each style; elements of data are no scripts."""
+    """The SHA-256 of each script and each style; elements of data are not scripts."""
     found: dict[str, list[str]] = {"script": [], "style": []}
     for kind, attributes, content in _ELEMENT.findall(text):
         if "application/" not in attributes:

@@ -64,6 +64,7 @@ class InstanceFolder:
     def __init__(self, path: Path) -> None:
         self.path = path
         self._sites: dict[str, Site] = {}
+        self._last: tuple[str, Instance | None] = "", None
         self._written: tuple[Site | None, str] = None, ""
 
     def write(self, instance: Instance) -> str:
@@ -85,14 +86,23 @@ class InstanceFolder:
             goals=tuple(None if _is_anywhere(goals, vertices) else goals for goals in instance.problem.goals),
             features=instance.problem.features,
         )
-        return self._put(json.dumps(encode(stored, inlined)).encode(), "json")
+        name = self._put(json.dumps(encode(stored, inlined)).encode(), "json")
+        self._last = name, instance
+        return name
 
     def read(self, name: str) -> Instance:
-        """Return the instance of a name.
+        """Return the instance of a name; the last one is kept in memory.
 
         Raises:
             InputError: it is not here, or it is damaged.
         """
+        last, instance = self._last
+        if instance is None or last != name:
+            instance = self._read(name)
+            self._last = name, instance
+        return instance
+
+    def _read(self, name: str) -> Instance:
         file = self.path / f"{name}.json"
         try:
             stored = decode(json.loads(self._content(file)), Assignment, inlined_array)

@@ -6,20 +6,28 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 from mrpbench_core.files import yaml
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.printing import printable
+from mrpbench_core.files.text import counted
 from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_core.store.paths import RunPaths
+from mrpbench_core.store.preview import preview
 from mrpbench_core.store.record_index import Entry, RecordIndex
 from mrpbench_core.store.recording import Recording
 from mrpbench_core.store.run_files import check_recording, names_files
 from mrpbench_core.store.shards import read_at, read_shard
 
+if TYPE_CHECKING:
+    from pandas import DataFrame  # type: ignore[import-untyped]
+
 _ATTEMPT = re.compile(r"(?P<run_id>.+)-(?P<attempt>[1-9]\d{0,9})")
+SHOWN = 10
+"""Runs in the text of results."""
 _LOG = logging.getLogger(__name__)
 
 
@@ -161,8 +169,33 @@ class Results:
         """The number of runs by status."""
         return dict(self._index.statuses())
 
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{count} {status}" for status, count in self.statuses().items())
+        title = f"{self.folder.path}: {counted(len(self), 'run')}" + (f" ({counts})" if counts else "")
+        ids = list(self._index.rows)
+        shown = ids if len(ids) <= SHOWN else [*ids[: SHOWN // 2], *ids[-SHOWN // 2 :]]
+        records = [self[run_id] for run_id in shown]
+        metrics = dict.fromkeys(name for record in records for name in record.get("metrics") or ())
+        table = preview(list(map(flatten, records)), list(metrics)) if records else []
+        if len(ids) > SHOWN:
+            table.insert(1 + SHOWN // 2, "…")
+        return "\n".join([printable(title), *table])
+
+    def to_pandas(self) -> "DataFrame":
+        """One row for each run, with the columns of `to_rows` except the provenance; null is NaN or None.
+
+        Raises:
+            InputError: pandas is not installed.
+        """
+        try:
+            from pandas import DataFrame
+        except ImportError:
+            raise InputError("`to_pandas` needs pandas", hint="`pip install pandas`") from None
+        parts = ({key: value for key, value in record.items() if key != "provenance"} for record in self)
+        return DataFrame([flatten(part) for part in parts])
+
     def to_rows(self) -> list[dict[str, Any]]:
-        """One flat dict per run, for `pandas.DataFrame`: options, metrics and timing become dotted keys."""
+        """One flat dict per run: `config.planner.plugin`, `planning.sum_of_costs`, `timing.planning_s`, …"""
         return [flatten(record) for record in self]
 
 
@@ -190,9 +223,9 @@ def load(folder: Path | str) -> Results:
     """The results in a folder.
 
     Raises:
-        InputError: it is no results folder.
+        InputError: it is not a results folder.
     """
     results = ResultsFolder(Path(folder))
     if not (results.path / "runs").is_dir():
-        raise InputError("is no results folder", file=folder, hint="give the folder that `mrpbench run` wrote")
+        raise InputError("is not a results folder", file=folder, hint="give the folder that `mrpbench run` wrote")
     return Results(results, warn=True)

@@ -81,7 +81,7 @@ def _decoder() -> msgspec.json.Decoder[dict[str, Any]]:
 def read_shard(path: Path, damaged: list[InputError] | None = None) -> Iterator[tuple[int, dict[str, Any]]]:
     """Yield the byte offset and content of each record; an unterminated last line is one that a crash cut off.
 
-    A finished line that is no record (a disk's fault, an editor's) must not cost the others: it is passed over.
+    A finished line that is not a record (a disk's fault, an editor's) must not cost the others: it is passed over.
 
     Args:
         path: the file.

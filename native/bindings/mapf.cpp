@@ -29,17 +29,36 @@ nb::ndarray<nb::numpy, double> lengths_of_paths(int vertex_count, const Table<st
   return own<double>(path_lengths(vertex_count, edges, from, to), {from.size(), to.size()});
 }
 
-std::optional<nb::ndarray<nb::numpy, std::int32_t>> cheapest_assignment(const Table<double>& cost) {
+/// The rows of a matrix of costs.
+std::vector<const double*> rows_of(const Table<double>& cost) {
   const std::size_t rows = cost.shape(0), columns = cost.shape(1);
   require(rows <= columns, "there are more rows than columns");
   std::vector<const double*> row;
   for (std::size_t i = 0; i < rows; ++i) row.push_back(cost.data() + i * columns);
   const auto sound = [](double entry) { return entry > -std::numeric_limits<double>::infinity(); };
   require(std::all_of(cost.data(), cost.data() + cost.size(), sound), "costs are numbers, or infinite if forbidden");
-  Limits unlimited(std::numeric_limits<double>::infinity(), std::numeric_limits<std::int64_t>::max());
+  return row;
+}
+
+Limits unlimited() {
+  return {std::numeric_limits<double>::infinity(), std::numeric_limits<std::int64_t>::max()};
+}
+
+std::optional<nb::ndarray<nb::numpy, std::int32_t>> cheapest_assignment(const Table<double>& cost) {
+  const auto rows = rows_of(cost);
+  Limits limits = unlimited();
   BasicAssignment<double> found;
-  if (!BasicHungarian<double>(unlimited).solve(row, static_cast<int>(columns), found)) return std::nullopt;
-  return own(std::move(found.column_of), {rows});
+  if (!BasicHungarian<double>(limits).solve(rows, static_cast<int>(cost.shape(1)), found)) return std::nullopt;
+  return own(std::move(found.column_of), {rows.size()});
+}
+
+std::optional<double> bottleneck(const Table<double>& cost) {
+  const auto rows = rows_of(cost);
+  Limits limits = unlimited();
+  double greatest = 0;
+  if (!BasicHungarian<double>(limits).find_bottleneck(rows, static_cast<int>(cost.shape(1)), greatest))
+    return std::nullopt;
+  return greatest;
 }
 
 }  // namespace
@@ -52,6 +71,8 @@ NB_MODULE(mapf, module) {
              "f8[sources,targets], infinite where there is no path; edges i4[E,2], length f8[E] not below 0.");
   module.def("cheapest_assignment", &cheapest_assignment, "cost"_a,
              "i4[n]: the column of each row, all different, with the least sum of costs; None if there is none.");
+  module.def("bottleneck", &bottleneck, "cost"_a,
+             "The least cost such that all rows can have different columns that cost no more; None if there is none.");
 
   define_reordering(module);
 }

@@ -162,23 +162,41 @@ def test_paths_on_no_graph_are_refused(changed, error):
         mapf.path_lengths(3, *(np.array(value, "f8" if name == "length" else "i4") for name, value in given.items()))
 
 
-@settings(deadline=None, max_examples=100)
+def matrices(random, rows, columns):
+    """Costs with and without ties."""
+    here, there = random.integers(0, 8, (rows, 2)), random.integers(0, 8, (columns, 2))
+    return {
+        "normal": random.normal(size=(rows, columns)),
+        "whole": random.integers(-2, 3, (rows, columns)) * 1.0,
+        "hundred": random.integers(0, 100, (rows, columns)) * 1.0,
+        "grid": np.abs(here[:, None] - there[None]).sum(axis=-1) * 1.0,
+        "product": np.outer(np.arange(rows), np.arange(columns)) * 1.0,
+        "equal": np.zeros((rows, columns)),
+        "scales": 10.0 ** random.integers(-6, 7, (rows, columns)),
+    }
+
+
+@settings(deadline=None, max_examples=200)
 @given(data=st.data())
 def test_assignments_cost_what_those_of_scipy_do(data):
-    rows = data.draw(st.integers(0, 12))
-    columns = data.draw(st.integers(rows, 16))
+    rows = data.draw(st.one_of(st.integers(0, 12), st.integers(60, 140)))
+    columns = rows + data.draw(st.sampled_from([0, 1, 5, 70]))
     random = np.random.default_rng(data.draw(st.integers(0, 2**32)))
-    cost = data.draw(
-        st.sampled_from([random.normal(size=(rows, columns)), random.integers(-2, 3, (rows, columns)) * 1.0])
-    )
-    cost[random.random((rows, columns)) < data.draw(st.sampled_from([0.0, 0.3, 0.7]))] = np.inf
-    found = mapf.cheapest_assignment(cost)
+    kinds = matrices(random, rows, columns)
+    cost = kinds[data.draw(st.sampled_from(sorted(kinds)))]
+    cost[random.random((rows, columns)) < data.draw(st.sampled_from([0.0, 0.3, 0.7, 0.95]))] = np.inf
+    found, least = mapf.cheapest_assignment(cost), mapf.bottleneck(cost)
     if found is None:
+        assert least is None
         with pytest.raises(ValueError, match="infeasible"):
             linear_sum_assignment(cost)
         return
     assert len(set(found.tolist())) == rows
     assert cost[range(rows), found].sum() == pytest.approx(cost[linear_sum_assignment(cost)].sum())
+    if rows:
+        assert least in cost
+        assert mapf.cheapest_assignment(np.where(cost <= least, cost, np.inf)) is not None
+        assert mapf.cheapest_assignment(np.where(cost < least, cost, np.inf)) is None
 
 
 @pytest.mark.parametrize(

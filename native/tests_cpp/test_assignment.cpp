@@ -88,6 +88,50 @@ TEST("assignments have the least cost, which their prices prove") {
   }
 }
 
+TEST("prices prove large assignments with ties cheapest, and those that are repaired") {
+  std::mt19937 random(4);
+  for (int round = 0; round < 60; ++round) {
+    const int rows = 1 + static_cast<int>(random() % 150);
+    const int columns = round % 3 == 0 ? rows : rows + static_cast<int>(random() % 80);
+    Matrix cost = random_matrix(random, rows, columns, round % 2 == 0 ? 3 : 1000);
+    Limits limits = unlimited();
+    Hungarian hungarian(limits);
+    Assignment present;
+    if (!hungarian.solve(rows_of(cost), columns, present)) continue;
+    CHECK(proves_itself(cost, present));
+    for (int change = 0; change < 20; ++change) {
+      const int row = static_cast<int>(random() % rows);
+      cost[row][present.column_of[row]] += static_cast<Tick>(random() % 6);
+      if (!hungarian.repair(rows_of(cost), row, present)) break;
+      CHECK(proves_itself(cost, present));
+    }
+  }
+}
+
+TEST("the bottleneck is the least cost below which an assignment is left") {
+  std::mt19937 random(5);
+  for (int round = 0; round < 300; ++round) {
+    const int rows = 1 + static_cast<int>(random() % 12), columns = rows + static_cast<int>(random() % 4);
+    const Matrix cost = random_matrix(random, rows, columns, round % 2 == 0 ? 5 : 100);
+    Limits limits = unlimited();
+    Hungarian hungarian(limits);
+    const auto possible_below = [&](Tick greatest) {
+      Matrix allowed = cost;
+      for (auto& row : allowed) {
+        for (Tick& entry : row) entry = entry <= greatest ? entry : kForever;
+      }
+      Assignment found;
+      return hungarian.solve(rows_of(allowed), columns, found);
+    };
+    Tick least = 0;
+    while (least < 100 && !possible_below(least)) ++least;
+    Tick found = 0;
+    const bool possible = hungarian.find_bottleneck(rows_of(cost), columns, found);
+    CHECK(possible == (least < 100));
+    CHECK(!possible || found == least);
+  }
+}
+
 TEST("assignments stay the cheapest when they are repaired after rising costs") {
   std::mt19937 random(2);
   for (int round = 0; round < 1000; ++round) {

@@ -86,6 +86,7 @@ TEST("priorities that are found out plan what fixed ones do not, or it gives up"
     Limits limits = unlimited();
     const Result result = solve_pbs(it, {}, limits);
     CHECK(result.status != Status::unsolvable || least_makespan(it) < 0);
+    CHECK((result.statistics.failed_robot < 0) == (result.status == Status::solved));
     if (result.status != Status::solved) continue;
     ++solved;
     CHECK(faults(it, result) == 0);

@@ -21,8 +21,8 @@ def test_an_option_wins_over_the_file_and_the_file_over_the_default():
 
 
 def test_the_options_own_checks_hold_for_the_file():
-    with pytest.raises(InputError, match=r"FollowPath: x\.sim_time: .*> 0"):
-        settle(Options(), Nav2Block("FollowPath", {"x": {"sim_time": -1}}), "x.")
+    with pytest.raises(InputError, match=r"FollowPath\.x: sim_time: .*> 0"):
+        settle(Options(), Nav2Block("FollowPath", {"x": {"sim_time": -1}}).within("x"))
     with pytest.raises(InputError, match="expected a whole number"):
         settle(Options(), Nav2Block("FollowPath", {"vx_samples": 2.5}))
 

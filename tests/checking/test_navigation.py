@@ -2,13 +2,24 @@ from mrpbench_core.checking.navigation import crossings, duplicates, unique_edge
 from mrpbench_core.model.worlds.world import Lane, Level, Vertex, World
 
 
-def world_of(points, *pairs) -> World:
+def world_of(points, *pairs, graphs=()) -> World:
     return World(
         name="",
         levels=(Level(name=""),),
         vertices=tuple(Vertex(name="", x=x, y=y) for x, y in points),
-        lanes=tuple(Lane(start=start, end=end) for start, end in pairs),
+        lanes=tuple(
+            Lane(start=start, end=end, graph=graph)
+            for (start, end), graph in zip(pairs, graphs or [0] * len(pairs), strict=True)
+        ),
     )
+
+
+def test_lanes_of_different_graphs_need_not_join():
+    points = [(0, 0), (2, 2), (0, 2), (2, 0), (1, 1), (9, 9)]
+    apart = world_of(points, (0, 1), (2, 3), (4, 5), graphs=(0, 1, 2))
+    assert (crossings(apart), vertices_on_lanes(apart)) == ([], [])
+    one = world_of(points, (0, 1), (2, 3), (4, 5), graphs=(1, 1, 0))
+    assert (crossings(one), vertices_on_lanes(one)) == ([((0, 1), (2, 3))], [])
 
 
 def test_an_edge_counts_once_in_any_direction_and_graph():

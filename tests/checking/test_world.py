@@ -5,7 +5,7 @@ import pytest
 from mrpbench_core.checking.world import check_world, size
 from mrpbench_core.model.planning.roadmap import Raster, Roadmap
 from mrpbench_core.model.worlds.occupancy import Occupancy
-from mrpbench_core.model.worlds.world import Lane, Level, Obstacle, Vertex, World
+from mrpbench_core.model.worlds.world import Door, Lane, Level, Obstacle, Vertex, World
 
 
 def roadmap_of(position, edges=(), place=(), grid=None) -> Roadmap:
@@ -68,8 +68,27 @@ def test_every_kind_of_fault_is_named():
         "lane in_wall – b passes something solid nearer than 0.200 m",
         "in_wall cannot be reached on the roadmap",
         "tight cannot be reached on the roadmap",
-        "a is 2 vertices in one position (graphs [0])",
+        "a is 2 vertices in one position",
     )
+
+
+def test_places_of_several_graphs_are_facts_and_repeated_vertices_faults():
+    places = [("a", 0, 0), ("b", 4, 0), ("b", 4, 0), ("c", 4, 4)]
+    roadmap = roadmap_of([[0, 0], [4, 0], [4, 4]], [[0, 1], [1, 2]], [0, 1, 1, 2])
+    for graphs, shared, faults in (((0, 1), 1, ()), ((1, 1), 0, ("b is 2 vertices in one position",))):
+        lanes = tuple(Lane(start=2 * i, end=2 * i + 1, graph=graph) for i, graph in enumerate(graphs))
+        world = attrs.evolve(world_of(*places), lanes=lanes)
+        facts = check_world(world, roadmap, 0.1)
+        assert (facts.shared, facts.faults, facts.components) == (shared, faults, 1)
+
+
+def test_a_name_of_several_places_or_doors_is_a_fault():
+    door = Door(name="gate", start=(9, 0), end=(9, 1))
+    world = world_of(("dock", 1, 1), ("dock", 5, 1), ("", 3, 1), ("", 7, 1), lanes=[(0, 1), (2, 3)])
+    world = attrs.evolve(world, levels=(Level(name="", doors=(door, attrs.evolve(door, end=(9, 2)))),))
+    faults = check_world(world, roadmap_of([[1, 1]], place=[0] * 4), 0.1).faults
+    assert "2 places are named dock: (1.00, 1.00), (5.00, 1.00)" in faults
+    assert "2 doors are named gate" in faults
 
 
 def test_narrow_passages_and_all_levels_are_reported():

@@ -1,6 +1,7 @@
 """`docs/how-to/planner-external.md`, followed to the letter with stand-ins for the programs that it runs."""
 
 import json
+import os
 import re
 import sys
 from pathlib import Path
@@ -10,6 +11,10 @@ import pytest
 from mrpbench_core.cli.scaffold.distribution import contents
 from mrpbench_core.cli.scaffold.plugin import named
 
+pytestmark = [
+    pytest.mark.skipif("MRPBENCH_ALL_PAGES" not in os.environ, reason="`make pages` follows this page"),
+    pytest.mark.timeout(600),
+]
 PAGE = (Path(__file__).parents[2] / "docs/how-to/planner-external.md").read_text()
 CALLED = """\
 #!{python} -IS
@@ -48,7 +53,6 @@ def programs(tmp_path):
         file.chmod(0o755)
 
 
-@pytest.mark.timeout(600)
 @pytest.mark.usefixtures("programs")
 def test_known_programs_are_checked_and_compared_under_their_labels(environment, tmp_path):
     (tmp_path / "programs.yaml").write_text(blocks("yaml")[0])
@@ -62,7 +66,6 @@ def test_known_programs_are_checked_and_compared_under_their_labels(environment,
     assert re.search(r"\bLaCAM3\b", tables)
 
 
-@pytest.mark.timeout(600)
 def test_the_folder_of_a_program_is_installed_and_checked(environment, tmp_path, monkeypatch):
     monkeypatch.setenv("PIP_NO_DEPS", "1")  # they are here, in the version of this checkout
     monkeypatch.setenv("PIP_NO_BUILD_ISOLATION", "0")  # pip reads this as: no isolation

@@ -43,8 +43,8 @@ def test_every_listed_command_has_help(mrpbench, command):
         (["run", "tiny.yaml", "--workers", "0"], "workers: at least 1"),
         (["run", "tiny.yaml", "--executor-option", "x"], "--executor-option x: expected KEY=VALUE"),
         (["run", "tiny.yaml", "scenario.robots=99"], "99 robots"),
-        (["report", "nowhere"], "nowhere: is no results folder"),
-        (["export", "nowhere:ab", "--to", "rosbag2"], "nowhere: is no results folder"),
+        (["report", "nowhere"], "nowhere: is not a results folder"),
+        (["export", "nowhere:ab", "--to", "rosbag2"], "nowhere: is not a results folder"),
         (["plugins", "show", "exmple"], "no plugin is called 'exmple' (did you mean 'example'?)"),
         (
             ["plugins", "show", "teleport"],

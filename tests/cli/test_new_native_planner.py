@@ -1,6 +1,5 @@
 """`mrpbench new-plugin planner NAME --native`: a planner in C++ that is built against the installed mrpbench-native."""
 
-import os
 import re
 import shutil
 from importlib.metadata import files
@@ -73,7 +72,6 @@ def test_headers_that_the_page_names_exist(page):
     assert not [header for header in named if not (include / header).is_file()]
 
 
-@pytest.mark.skipif("MRPBENCH_ALL_PAGES" not in os.environ, reason="`make pages` follows this page")
 @pytest.mark.skipif(shutil.which("c++") is None, reason="no C++ compiler")
 @pytest.mark.timeout(600)
 def test_the_page_leads_to_a_planner_in_cpp_in_a_report(page, environment, tmp_path, monkeypatch):

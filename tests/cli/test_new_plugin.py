@@ -53,19 +53,21 @@ def test_a_new_component_passes_the_checks_of_its_kind(kind, options, folder, mo
 
 def test_what_is_written_passes_linter_and_types(folder):
     folders = [folder(kind, f"neat-{kind}") for kind in kinds()] + [folder("planner", "neat_runs", "--external")]
-    config = ["--config", str(ROOT / "pyproject.toml"), "--no-cache"]
-    for written in folders:
-        texts = [path.read_text() for path in written.rglob("*") if path.is_file()]
-        assert not [text for text in texts if "$" in text]
-        (package,) = written.glob("mrpbench_*")
-        for words in (["check", package.name], ["check", "--select", "I", "."], ["format", "--check", "."]):
-            tool = [sys.executable, "-m", "ruff", *words, *config]
-            done = subprocess.run(tool, cwd=written, capture_output=True, text=True)
-            assert done.returncode == 0, done.stdout
-    files = [str(path) for written in folders for path in (*written.glob("mrpbench_*"), *written.glob("tests/*.py"))]
-    words = [sys.executable, "-m", "mypy", "--strict", "--cache-dir", str(ROOT / ".mypy_cache/new_plugins"), *files]
-    done = subprocess.run(words, cwd=folders[0].parent, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout
+    texts = [path.read_text() for written in folders for path in written.rglob("*") if path.is_file()]
+    assert not [text for text in texts if "$" in text]
+    packages = [str(package) for written in folders for package in written.glob("mrpbench_*")]
+    tests = [str(test) for written in folders for test in written.glob("tests/*.py")]
+    assert len(packages) == len(folders) <= len(tests)
+    config = ["--config", str(ROOT / "pyproject.toml"), "--config", 'src = ["*"]', "--no-cache"]  # each is first party
+    mypy = ["mypy", "--strict", "--cache-dir", str(ROOT / ".mypy_cache/new_plugins")]
+    for tool in (
+        ["ruff", "check", *config, *packages],
+        ["ruff", "check", "--select", "I", *config, "."],
+        ["ruff", "format", "--check", *config, "."],
+        [*mypy, *packages, *tests],
+    ):
+        done = subprocess.run([sys.executable, "-m", *tool], cwd=folders[0].parent, capture_output=True, text=True)
+        assert done.returncode == 0, done.stdout
 
 
 @pytest.mark.timeout(600)

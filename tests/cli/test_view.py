@@ -55,7 +55,7 @@ def test_a_run_without_recording_says_so(mrpbench):
     mrpbench("run", "tiny.yaml", "seed=0")
     code, _, errors = mrpbench("view", "results/tiny")
     assert code == 2
-    assert "no recording here" in errors
+    assert "the recording holds no poses (a run that ended before its execution cannot be shown)" in errors
     assert len(errors.splitlines()) == 1
 
 

@@ -54,7 +54,7 @@ def test_a_graph_has_no_cells(invoke):
 
 
 def test_many_faults_are_cut_short(invoke, shared_data):
-    out = invoke(shared_data / "rmf/mrp_bench/airport_terminal.building.yaml")
+    out = invoke(shared_data / "rmf/mrp_bench/warehouse.building.yaml")
     assert "more; --json lists all" in out
 
 
@@ -105,6 +105,17 @@ def test_further_levels_are_drawn_next_to_the_first(invoke, tmp_path, shared_dat
     pytest.importorskip("matplotlib")
     invoke(shared_data / "rmf/rmf_demos/hotel.building.yaml", "--render", tmp_path / "hotel.png")
     assert sorted(file.name for file in tmp_path.iterdir()) == ["hotel-L2.png", "hotel-L3.png", "hotel.png"]
+
+
+def test_of_levels_without_lanes_the_first_is_shown(invoke, tmp_path):
+    square = "vertices: [[0, 0, 0, ''], [4, 0, 0, ''], [4, 4, 0, ''], [0, 4, 0, '']], walls: [[0, 1, {}], [2, 3, {}]]"
+    file = tmp_path / "two.building.yaml"
+    file.write_text(f"coordinate_system: cartesian_meters\nlevels:\n  L1: {{{square}}}\n  L2: {{{square}}}\n")
+    told = invoke(file)
+    assert "only level 'L1' is loaded, not 'L2'" in told
+    assert "4.10 × 4.10 m" in told
+    with pytest.raises(InputError, match=r"has 2: L1, L2 \(load one level, .* level: L1\}"):
+        invoke(file, "--roadmap", "grid")
 
 
 @pytest.mark.parametrize(

@@ -21,6 +21,10 @@ def test_an_option_a_block_and_a_quantity_can_be_given(study):
     assert list(config.metrics) == ["planning"]
 
 
+def test_text_that_looks_like_a_number_keeps_its_spelling(study):
+    assert study(SMALL, "planner.level=1.10", "name=007").runs[0].config.planner.level == "1.10"
+
+
 def test_an_override_replaces_the_axis_of_the_same_name(study):
     matrix = "matrix: {planner: [astar, ecbs], seed: 0..9}"
     assert seen(study, matrix, "planner=ecbs", "seed=7") == [("Ecbs", 1.2, 7)]

@@ -1,5 +1,7 @@
 """The schema agrees with what is read."""
 
+from functools import cache
+
 import jsonschema
 import pytest
 
@@ -12,11 +14,17 @@ from mrpbench_core.plugins import installed
 SMALL = "world: office\nscenario: {robots: 5}\nplanner: ecbs\n"
 
 
-@pytest.fixture
-def validator(toy):
+@cache
+def checked():
+    """The validator of the toy plugins, which are the same for every test."""
     found = schema()
     jsonschema.Draft202012Validator.check_schema(found)
     return jsonschema.Draft202012Validator(found)
+
+
+@pytest.fixture
+def validator(toy):
+    return checked()
 
 
 @pytest.mark.parametrize(

@@ -30,6 +30,9 @@ def ecbs(study, options):
         ("level: none", "none"),
         ("level: null", None),
         ("level: '3'", "3"),
+        ("level: 1.10", "1.10"),
+        ("level: 007", "007"),
+        ("pair: [3, 1E3]", (3, "1E3")),
         ("flag: true", True),
         ("either: auto", "auto"),
         ("either: 3", 3.0),
@@ -62,8 +65,7 @@ def test_options_are_read_by_their_type(study, option, value):
         ("weights: [1, x, 2]", "weights.1: expected a number, got 'x'"),
         ("pair: [1]", "pair: expected 2 entries, got 1"),
         ("pair: [x, 1]", "pair.0: expected a whole number, got 'x'"),
-        ("pair: [x, 1]", "pair.1: expected text, got 1 (put it in quotes)"),
-        ("level: 3", "level: expected text, got 3 (put it in quotes)"),
+        ("level: [3]", "level: expected text, got a list"),
         ("flag: on", "flag: expected true or false, got 'on'"),
         ("flag: 1", "flag: expected true or false, got 1"),
         ("either: manual", "either: expected a number or auto, got 'manual'"),
@@ -195,6 +197,18 @@ def test_a_format_of_an_earlier_release_gives_one_note(study, errors, install):
     assert note.startswith("acme-old 1.0 offers format 'csv' in the group mrpbench.exporters")
     (line,) = errors(BASE + "export: [table]")
     assert line.endswith("no format is called 'table' (`mrpbench plugins` lists what is installed: csv, rosbag2)")
+
+
+def test_a_metric_is_not_called_like_a_part_of_records(errors, tmp_path):
+    (tmp_path / "mine.py").write_text(
+        "import attrs\nfrom mrpbench_core.api import Column, Metric\n"
+        "@attrs.frozen(kw_only=True)\nclass timing(Metric):\n"
+        "    columns = (Column('planning_s', 's', 'lower', 'mine'),)\n"
+        "    def measure(self, run): return {'planning_s': 1.0}\n"
+    )
+    assert errors(BASE + "metrics: [planning, ./mine.py:timing]") == [
+        "some.yaml:4:21: metrics.1: a metric cannot be called 'timing': records have a part of that name"
+    ]
 
 
 def test_files_are_relative_to_the_configuration_and_must_exist(study, errors, tmp_path, monkeypatch):

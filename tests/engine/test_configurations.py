@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip("mrpbench_planners_mapf")
 SOAK = runpy.run_path(str(Path(__file__).with_name("soak_configurations.py")))
-COUNT = 6
+COUNT = 3
 
 
 def test_a_drawn_configuration_is_refused_in_a_line_or_ends_in_a_definite_status():

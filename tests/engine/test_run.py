@@ -73,6 +73,40 @@ def test_recordings_hold_no_wall_times(tmp_path):
     assert digest(tmp_path / "a" / "run.zip") == digest(tmp_path / "b" / "run.zip")
 
 
+WITHOUT_PLAN = """
+import attrs
+
+from mrpbench_core.api import option
+from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
+from mrpbench_planners_example import Example
+
+
+@attrs.frozen(kw_only=True)
+class WithoutPlan(Example):
+    status: str = option("gave_up", help="status")
+    robot: int = option(1, help="robot")
+
+    def plan(self, problem, budget):
+        return PlanResult(status=PlanStatus(self.status), statistics={"failed_robot": float(self.robot)})
+"""
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({}, "the planner gave up: it last found no path for robot 1, which starts at ("),
+        ({"status": "unsolvable"}, "the planner proved that there is no plan, because of robot 1, which starts at ("),
+        ({"robot": 99}, "the planner ended with gave_up"),
+        ({"status": "out_of_memory"}, " MiB; the option limits.memory allows the whole run 4096 MiB"),
+    ],
+)
+def test_a_run_without_a_plan_says_where_it_fails(tmp_path, options, words):
+    (tmp_path / "mine.py").write_text(WITHOUT_PLAN)
+    planner = {"plugin": f"{tmp_path}/mine.py:WithoutPlan"} | options
+    record, _ = execute_first(tmp_path, planner=planner, simulator="none", limits={})
+    assert words in record["error"]["message"]
+
+
 def test_a_run_goes_through_every_stage_and_succeeds(first):
     record, stages, folder = first
     before, after = ["scenario", "assignment"], ["execution", "export", "metrics"]

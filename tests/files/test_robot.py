@@ -36,6 +36,10 @@ def test_a_file_is_found_from_the_folder_of_the_configuration(tmp_path):
     assert (robot.name, robot.max_speed, robot.lidar) == ("cart", 1, None)
 
 
+def test_a_name_like_a_number_keeps_its_spelling(tmp_path):
+    assert load_robot_text(tmp_path, ROBOT.replace("cart", "007")).name == "007"
+
+
 def test_a_footprint_drawn_clockwise_is_turned_round(tmp_path):
     clockwise = "[[-0.3, -0.2], [-0.3, 0.2], [0.3, 0.2], [0.3, -0.2]]"
     (tmp_path / "cart.yaml").write_text(ROBOT.replace(ROBOT.splitlines()[1][11:], clockwise))
@@ -58,7 +62,8 @@ def load_robot_text(folder, text):
         (ROBOT.replace("max_speed: 1", "max_speed: .inf"), 3, "max_speed must be a number"),
         (ROBOT.replace("max_speed: 1", "max_speed: 0"), 3, "max_speed must be positive"),
         (ROBOT.replace("max_speed: 1", "max_speed: 1e300"), 3, "max_speed must be at most 1000"),
-        (ROBOT.replace("name: cart", "name: 3"), 1, "must be text"),
+        (ROBOT.replace("name: cart", "name: []"), 1, "must be text"),
+        (ROBOT.replace("name: cart", "name:"), 1, "must be text"),
         (ROBOT.replace("[0.3, 0.2], [-0.3, 0.2], ", ""), 2, "at least three points"),
         (ROBOT.replace("[0.3, 0.2]", "[0.3]"), 2, "must be two numbers"),
         (ROBOT.replace("0.2", "0"), 2, "encloses no area"),

@@ -83,6 +83,12 @@ def test_a_file_written_by_hand_is_understood(tmp_path):
     assert task.release == 2
 
 
+def test_a_name_like_a_number_keeps_its_spelling(tmp_path):
+    path = tmp_path / "s.yaml"
+    path.write_text(GOOD.replace("puffin", "1.10"))
+    assert read_scenario(path).start_names == ("1.10",)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
@@ -91,7 +97,7 @@ def test_a_file_written_by_hand_is_understood(tmp_path):
         ("x: 1,", "x: far,", ":3:23: must be a finite number"),
         ("x: 1,", "x: .inf,", ":3:23: must be a finite number"),
         ("x: 1, ", "", ":3:5: lacks 'x'"),
-        ("name: puffin", "name: 7", ":3:12: must be text (put it in quotes)"),
+        ("name: puffin", "name: [7]", ":3:12: must be text"),
         ("{x: 0.0, y: 0.0, level: 1}", "[0, 0]", ":5:15: must be a mapping with x, y"),
         ("level: 1", "level: -1", ":5:38: must be the index of a level, from 0"),
         ("release: 2", "release: -2", ":5:76: must not be negative"),

@@ -70,6 +70,14 @@ def test_an_errand_without_a_place_is_located(tmp_path):
         read_tasks(path, find)
 
 
+def test_places_and_tasks_named_like_numbers_keep_their_spelling(tmp_path):
+    path = tmp_path / "tasks.yaml"
+    path.write_text("tasks:\n- {name: 007, goals: [1.10, [1E3, 1.10]]}\n")
+    asked = []
+    (only,) = read_tasks(path, lambda name: (asked.append(name), PLACES["returns"])[1])
+    assert (only.task.name, asked) == ("007", ["1.10", "1E3", "1.10"])
+
+
 @pytest.mark.parametrize("name", ["tasks.json", "tasks.yaml"])
 def test_json_is_understood_with_names_and_places_in_metres(tmp_path, name):
     path = tmp_path / name
@@ -99,13 +107,13 @@ def test_json_is_understood_with_names_and_places_in_metres(tmp_path, name):
         ),
         ("returns", "returns|docks", ":2: errands: no vertex 'docks' (names are returns, lift lobby)"),
         ("12.5", "-1", ":2: release: must not be negative"),
-        ("12.5", "soon", ":2: release: 'soon' is no finite number"),
+        ("12.5", "soon", ":2: release: 'soon' is not a finite number"),
         (",5,", ",5;5;5,", ":2: service: has 3 times instead of 1 or 2"),
-        ("0 0 2 1.5", "0 0 0.5", ":3: errands: '0 0 0.5' is no place (x y, x y level or x y level yaw)"),
-        ("0 0 2 1.5", "0 0 2 1.5 7", ":3: errands: '0 0 2 1.5 7' is no place (x y, x y level or x y level yaw)"),
-        ("-1", "1.5", ":3: priority: '1.5' is no whole number"),
+        ("0 0 2 1.5", "0 0 0.5", ":3: errands: '0 0 0.5' is not a place (x y, x y level or x y level yaw)"),
+        ("0 0 2 1.5", "0 0 2 1.5 7", ":3: errands: '0 0 2 1.5 7' is not a place (x y, x y level or x y level yaw)"),
+        ("-1", "1.5", ":3: priority: '1.5' is not a whole number"),
         ("-1,", "", ":3: has 5 cells instead of 6"),
-        ('large"', "large", ":3: is no CSV: unexpected end of data"),
+        ('large"', "large", ":3: is not CSV: unexpected end of data"),
     ],
 )
 def test_a_mistake_in_a_table_is_located(tmp_path, old, new, message):

@@ -1,8 +1,12 @@
 import math
+import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
+from mrpbench_core.files import urdf
 from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot, robot_reads
@@ -60,6 +64,14 @@ def test_fixed_joints_on_the_way_to_a_wheel_are_followed_with_their_turns(tmp_pa
     urdf = URDF.replace('<origin xyz="0 0 0.1"/>', there)
     urdf = urdf.replace('<origin xyz="0 0.2 0" rpy="-1.5708 0 0"/><axis xyz="0 0 1"/>', back)
     assert load(tmp_path, urdf).wheel_separation == pytest.approx(0.4)
+
+
+def test_an_origin_turns_about_fixed_axes_first_by_roll_then_pitch_then_yaw():
+    turns = (0.4, -0.9, 2.0)
+    joint = ET.fromstring(f'<joint><origin xyz="1 2 3" rpy="{turns[0]} {turns[1]} {turns[2]}"/></joint>')
+    frame = urdf._origin(joint, Path("cart.urdf"))
+    np.testing.assert_allclose(frame[:3, :3], Rotation.from_euler("xyz", turns).as_matrix(), atol=1e-12)
+    assert frame[:, 3].tolist() == [1, 2, 3, 1]
 
 
 def test_the_radius_of_a_wheel_that_is_a_mesh_stands_in_the_robots_file(tmp_path):
@@ -125,7 +137,28 @@ def test_recordings_do_not_tell_where_a_urdf_lies(tmp_path):
             URDF.replace('type="fixed"', 'type="prismatic"'),
             "a driven wheel is attached to the joint 'turned', which moves",
         ),
-        (URDF.replace('<parent link="base"/>', '<parent link="left_wheel"/>'), "the joint 'left' is its own ancestor"),
+        (
+            URDF.replace('<parent link="base"/>', '<parent link="left_wheel"/>'),
+            "the joint '(turned|left)' is its own ancestor",
+        ),
+        (
+            URDF.replace('"axle"/>', '"axle"/><link name="world"/>', 1),
+            "has 2 root links, 'base', 'world' .joints should",
+        ),
+        (URDF.replace('"axle"/>', '"axle"/><link name="axle"/>', 1), "has two links 'axle'"),
+        (URDF.replace('"turned"', '"left"'), "has two joints 'left'"),
+        (URDF.replace(' name="turned"', ""), "has a joint without a name"),
+        (URDF.replace('"fixed"', '"weld"'), r"the joint 'turned' has the type 'weld' \(types: fixed, continuous"),
+        (URDF.replace(' type="fixed"', ""), "the joint 'turned' has the type ''"),
+        (
+            URDF.replace('parent link="base"', 'parent link="bse"'),
+            r"'turned' is 'bse', not a link \(did you mean 'base'",
+        ),
+        (URDF.replace('<child link="axle"/>', ""), "the child of the joint 'turned' is '', not a link"),
+        (
+            URDF.replace('child link="right_wheel"', 'child link="left_wheel"'),
+            "the joints 'left' and 'right' have one child, 'left_wheel'",
+        ),
         (URDF.replace('rpy="-1.5708 0 0"', ""), r"'left' turns about \(0, 0, 1\)"),
         (URDF.replace('<axis xyz="0 0 1"/>', '<axis xyz="0 0 0"/>'), r"'left' turns about \(0, 0, 0\)"),
         (URDF.replace("0 0.2 0", "0 -0.3 0"), "'left' is not to the left of 'right'"),

@@ -146,6 +146,14 @@ def test_an_alias_means_the_latest_anchor_above_it():
     assert yaml.loads("[&a 1, &a 2, *a, &a [&a 3, *a], *a]").data == [1, 2, 2, [3, 3], 3]
 
 
+def test_scalars_keep_their_spelling():
+    document = yaml.loads("a: [1.10, 007, 1E3, on, 2024-10-05, 0x1F, True, '', ~, x]\nb: &b 2.50\nc: *b")
+    names = [document.text(("a", index)) for index in range(10)]
+    assert names == ["1.10", "007", "1E3", "on", "2024-10-05", "0x1F", "True", "", None, "x"]
+    assert document.text(("b",)) == document.text(("c",)) == "2.50"
+    assert document.text(()) is document.text(("a",)) is None
+
+
 def test_marks_lead_to_keys_and_values():
     document = yaml.loads("a:\n  - x: 1\n    y: [2, 3]\nb: {c: d}\n", file="f.yaml")
     assert document.mark() == (1, 1)

@@ -1,6 +1,7 @@
 """Records on disk: attempts, cut lines, merging."""
 
 import json
+import sys
 
 import pytest
 
@@ -150,8 +151,45 @@ def test_rows_are_flat(folder):
     assert row["config.seed"] == 3
 
 
+def test_a_table_of_pandas_has_the_last_attempt_of_each_run_in_flat_columns(folder):
+    pytest.importorskip("pandas", reason="pandas is not installed")
+    entries = [("aa", 1, 5.0), ("aa", 2, 3.0), ("bb", 1, None)]
+    for run_id, attempt, cost in entries:
+        more = {"metrics": {"planning.cost": cost}, "config": {"planner": {"plugin": "cbs"}}}
+        store(folder, f"{run_id}{attempt}", record(run_id, attempt, **more, provenance={"a": {"b": 1}}))
+    table = load(folder.path).to_pandas()
+    assert table["run_id"].tolist() == ["aa", "bb"]
+    assert table["attempt"].tolist() == [2, 1]
+    assert table["planning.cost"].isna().tolist() == [False, True]
+    assert table["config.planner.plugin"].tolist() == ["cbs", "cbs"]
+    assert not [column for column in table.columns if column.startswith("provenance")]
+
+
+def test_without_pandas_the_error_says_what_to_install(folder, monkeypatch):
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(InputError, match="`to_pandas` needs pandas"):
+        load(folder.path).to_pandas()
+
+
+def test_results_show_as_a_table(folder, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "90")
+    assert repr(load(folder.path)) == f"{folder.path}: 0 runs"
+    for number in range(14):
+        config = {"planner": {"plugin": "cbs" if number < 7 else "pbs\x1b[2J"}, "seed": number % 7}
+        metrics = {"planning.cost": number / 3, "planning.solved": True, **{f"m.a{i}": None for i in range(20)}}
+        store(folder, f"{number:02}", record(f"{number:016}", config=config, seed=number % 7, metrics=metrics))
+    lines = repr(load(folder.path)).splitlines()
+    assert lines[0] == f"{folder.path}: 14 runs (14 succeeded)"
+    assert lines[1].split()[:5] == ["run", "planner.plugin", "seed", "status", "planning.cost"]
+    assert lines[2].split()[:5] == ["0" * 12, "cbs", "0", "succeeded", "0"]
+    assert lines[7] == "…"
+    assert len(lines) == 13
+    assert max(map(len, lines[1:])) <= 90
+    assert "\x1b" not in repr(load(folder.path))
+
+
 def test_a_folder_of_something_else_is_refused(tmp_path):
-    with pytest.raises(InputError, match="is no results folder"):
+    with pytest.raises(InputError, match="is not a results folder"):
         load(tmp_path)
     (tmp_path / "thesis.tex").write_text("precious")
     with pytest.raises(InputError, match="is not empty"):

@@ -1,13 +1,11 @@
 """The goal and progress checkers of Nav2, by its names, and what a Nav2 parameter file says of them (lyrical 1.5)."""
 
-from pathlib import Path
 from typing import Any
 
 import attrs
 
-from mrpbench_core.api.nav2 import check_parameter
-from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.nav2 import Nav2Block, nav2_block
+from mrpbench_core.api.nav2 import check_parameter, plugin_ids
+from mrpbench_core.files.nav2 import Nav2Block
 
 _SIMPLE = {"xy_goal_tolerance": 0.25, "yaw_goal_tolerance": 0.25, "stateful": True}
 _MOVED = {"required_movement_radius": 0.5, "movement_time_allowance": 10.0}
@@ -23,6 +21,11 @@ _KINDS: dict[str, dict[str, dict[str, Any]]] = {
     },
 }
 """The checkers of each kind, with Nav2's defaults of their parameters."""
+_NOT_USED = (
+    *("path_length_tolerance", "symmetric_yaw_tolerance"),  # a robot arrives only when it has passed all its waypoints
+    *(name for kind in _KINDS.values() for parameters in kind.values() for name in parameters),
+)
+"""Parameters of Nav2's checkers that have no effect here, or not on the checker that is chosen."""
 
 
 def parameters_of(checker: str) -> frozenset[str]:
@@ -30,30 +33,25 @@ def parameters_of(checker: str) -> frozenset[str]:
     return frozenset(name for kind in _KINDS.values() for name in kind.get(checker, ()))
 
 
-def from_nav2(file: Path, options: type[attrs.AttrsInstance]) -> dict[str, Any]:
-    """Return the names and parameters of the checkers in a Nav2 parameter file, and `failure_tolerance`.
+def from_nav2(server: Nav2Block, options: type[attrs.AttrsInstance]) -> dict[str, Any]:
+    """Return the names and parameters of the checkers of a Nav2 controller server, and `failure_tolerance`.
 
     Args:
-        file: the file. Of several checkers of a kind the first is taken; Nav2's defaults fill what is missing.
+        server: its parameters. Of several checkers of a kind the first is taken; Nav2's defaults fill what is missing.
         options: class with an option of each name, whose validator checks the value.
 
     Raises:
-        InputError: the file has no `controller_server`, or a checker or value that is not supported.
+        InputError: a checker, a parameter or a value is not supported.
     """
-    server = nav2_block(file, "controller_server")
-    if server is None:
-        raise InputError("has no controller_server", file=file)
     tolerance = server.take("failure_tolerance", float, 0.0)
     found: dict[str, Any] = {"failure_tolerance": tolerance if tolerance >= 0 else float("inf")}  # as in Nav2
     for kind, checkers in _KINDS.items():
-        names = server.take_names(f"{kind}_plugins") or (server.take(f"{kind}_plugin", str, kind),)
-        block = nav2_block(file, "controller_server", names[0]) or Nav2Block(names[0], {})
+        block = server.within(plugin_ids(server, kind)[0])
         found[kind] = block.take("plugin", str, next(iter(checkers))).rpartition("::")[2]
         if found[kind] not in checkers:
             raise block.error(f"{found[kind]!r} is not supported", "plugin", hint=f"supported: {', '.join(checkers)}")
         for name, default in checkers[found[kind]].items():
             found[name] = block.take(name, type(default), default)
             check_parameter(getattr(attrs.fields(options), name), found[name], block, name)
-        block.ignore("path_length_tolerance")  # a robot arrives only when it has passed all its waypoints
-        block.refuse_unknown()
+        block.not_used(*_NOT_USED)
     return found

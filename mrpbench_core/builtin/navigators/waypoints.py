@@ -13,7 +13,7 @@ import numpy as np
 from attrs.validators import ge, gt, optional
 
 from mrpbench_core.api import Controller, Navigator, NavigatorSession, option
-from mrpbench_core.api.nav2 import parameter, settle
+from mrpbench_core.api.nav2 import controller_server, not_used, parameter, settle
 from mrpbench_core.api.recovery import Recovery
 from mrpbench_core.builtin.navigators.checkers import from_nav2, parameters_of
 from mrpbench_core.builtin.navigators.controller_server import ControllerServer
@@ -28,6 +28,7 @@ from mrpbench_core.builtin.recoveries.back_up import BackUp
 from mrpbench_core.builtin.recoveries.clear import Clear
 from mrpbench_core.builtin.recoveries.spin import Spin
 from mrpbench_core.builtin.recoveries.wait import Wait
+from mrpbench_core.files.nav2_file import Nav2File
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.worlds.world import World
@@ -64,6 +65,7 @@ class Waypoints(Navigator):
         help="a Nav2 parameter file: the goal and progress checkers and failure_tolerance of its controller_server; "
         "options given here win",
     )
+    namespace: str | None = option(None, help="namespace of the robot in the Nav2 file, where namespaces differ in it")
     goal_checker: Literal["SimpleGoalChecker", "StoppedGoalChecker", "PositionGoalChecker"] | None = parameter(
         "SimpleGoalChecker",
         help="when the end of the path is reached: by place and yaw, also standing, or by place alone",
@@ -129,13 +131,27 @@ class Waypoints(Navigator):
         """
         values = settle(self)
         if self.nav2 is not None:
-            found = from_nav2(self.nav2, type(self))
+            found, _ = self._checkers(self.nav2)
             values |= {name: value for name, value in found.items() if getattr(self, name) is None}
         return values
 
+    def _checkers(self, nav2: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
+        """Return what the Nav2 file says, and notes on what it says without effect."""
+        file = Nav2File.load(nav2)
+
+        def read(namespace: str) -> tuple[dict[str, Any], tuple[str, ...]]:
+            server = controller_server(file, namespace)
+            return from_nav2(server, type(self)), not_used(server)
+
+        return file.read("controller_server", self.namespace, read)
+
+    def notes(self) -> tuple[str, ...]:
+        """Return what the Nav2 file says without effect."""
+        return () if self.nav2 is None else self._checkers(self.nav2)[1]
+
     def idle_options(self) -> dict[str, str]:
         """Return options that the others make idle."""
-        idle = {}
+        idle = {} if self.nav2 else {"namespace": "there is no Nav2 file"}
         values = self.settled()
         if self.waypoints == "stop":
             idle["turn_ahead"] = "waypoints is stop, where robots turn to the next one anyway"

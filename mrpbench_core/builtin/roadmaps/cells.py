@@ -75,9 +75,11 @@ def one_level(world: World) -> World:
         InputError: the world has several levels.
     """
     if len(world.levels) > 1:
+        names = ", ".join(level.name for level in world.levels)
+        one = f"load one level, world: {{plugin: rmf, file: ..., level: {world.levels[0].name}}}"
         raise InputError(
-            f"a raster has one level, and world {world.name!r} has {len(world.levels)}",
-            hint="use roadmap: graph, or load one level: world: {plugin: rmf, file: ..., level: ...}",
+            f"a raster has one level, and world {world.name!r} has {len(world.levels)}: {names}",
+            hint=f"use roadmap: graph, or {one}" if world.lanes else one,
         )
     return world
 

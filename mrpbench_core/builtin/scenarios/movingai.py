@@ -40,7 +40,7 @@ class MovingAiScenario(ScenarioSource):
         raster = world.levels[0].occupancy if world.levels else None
         if raster is None:
             raise InputError(
-                f"world {world.name} is no raster, so columns and rows have no place in it", file=self.file
+                f"world {world.name} is not a raster, so columns and rows have no place in it", file=self.file
             )
         rows = _read_rows(self.file, self.robots)
         start = np.array([self._centre(raster, row, row.start, "start") for row in rows])
@@ -80,11 +80,11 @@ def _read_rows(file: Path, wanted: int) -> list[_Row]:
     """The first `wanted` rows.
 
     Raises:
-        InputError: the file is no scenario, or has fewer rows.
+        InputError: the file is not a scenario, or has fewer rows.
     """
     first, *lines = read_text(file).splitlines() or [""]
     if first.split()[:1] != ["version"]:
-        raise InputError("is no MovingAI scenario: the first line is not 'version 1'", file=file, line=1)
+        raise InputError("is not a MovingAI scenario: the first line is not 'version 1'", file=file, line=1)
     rows: list[_Row] = []
     for number, line in enumerate(lines, start=2):
         if len(rows) == wanted:

@@ -45,7 +45,7 @@ def read_arrivals(file: Path) -> list[float]:
         except ValueError:
             time = math.nan
         if not 0 <= time < math.inf:
-            raise InputError(f"{word!r} is no time in seconds from 0", file=file, line=line)
+            raise InputError(f"{word!r} is not a time in seconds from 0", file=file, line=line)
         if time < times[-1]:
             raise InputError(f"{word} s comes after {times[-1]:g} s", file=file, line=line, hint="sort the times")
         times.append(time)

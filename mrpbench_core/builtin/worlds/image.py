@@ -26,8 +26,8 @@ class GreyscaleImage:
     """u2[rows, columns]: index into `lightness`."""
     lightness: Float
     """f8[tones], 0 black to 1 white; the mean of the colours."""
-    transparent: Bool
-    """bool[rows, columns]."""
+    opaque: Bool
+    """bool[rows, columns]: alpha is 255, or the image has no alpha."""
 
 
 def read_image(file: Path, named: Node) -> GreyscaleImage:
@@ -48,10 +48,10 @@ def read_image(file: Path, named: Node) -> GreyscaleImage:
                     raise _too_large(file, named)
                 if image.mode.startswith("I"):  # 16 bits
                     tone = np.clip(np.asarray(image), 0, 65535).astype(np.uint16)
-                    return GreyscaleImage(tone, np.arange(65536) / 65535, np.zeros(tone.shape, bool))
+                    return GreyscaleImage(tone, np.arange(65536) / 65535, np.ones(tone.shape, bool))
                 colours = np.asarray(image.convert("RGBA"))
     except FileNotFoundError:
-        raise named.error(f"there is no image {file}") from None
+        raise named.error(f"there is no image {file}", "the option image names another") from None
     except (Image.DecompressionBombWarning, Image.DecompressionBombError):
         raise _too_large(file, named) from None
     except InputError:
@@ -59,7 +59,7 @@ def read_image(file: Path, named: Node) -> GreyscaleImage:
     except Exception as error:  # noqa: BLE001 - Pillow has no class of errors for broken files
         raise InputError(f"is not an image that Pillow reads: {one_line(error)}", file=file) from None
     tone = colours[..., :3].sum(axis=2, dtype=np.uint16)
-    return GreyscaleImage(tone, np.arange(3 * 255 + 1) / 3 / 255, colours[..., 3] == 0)
+    return GreyscaleImage(tone, np.arange(3 * 255 + 1) / 3 / 255, colours[..., 3] == 255)
 
 
 def _too_large(file: Path, named: Node) -> InputError:

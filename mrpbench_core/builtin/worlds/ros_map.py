@@ -1,6 +1,7 @@
 """Worlds of the ROS `map_server`: an image, and a YAML file that defines its grey values.
 
-Facts: the documentation of `nav2_map_server` (docs.nav2.org) and of ROS 1's `map_server` (wiki.ros.org/map_server).
+Facts: the documentation of `nav2_map_server` (docs.nav2.org; the modes: API documentation of `MapMode`) and of ROS 1's
+`map_server` (wiki.ros.org/map_server).
 """
 
 import math
@@ -22,17 +23,22 @@ from mrpbench_core.model.worlds.world import Level, World
 
 KEYS = ("image", "resolution", "origin", "occupied_thresh", "free_thresh", "negate", "mode")
 MODES = ("trinary", "scale", "raw")
+WORDS = {"yes": True, "on": True, "no": False, "off": False}
+"""Truth values that map_server reads besides those of YAML 1.2."""
+TOLERANCE = 1e-9
+"""Rounding of a grey value, so that one that equals a threshold reaches it."""
 
 
 @attrs.frozen(kw_only=True)
 class RosMap(WorldSource):
     """A `map_server` map. Occupied cells are blocked, and so are unknown ones unless `unknown` is `free`.
 
-    A pixel is occupied if its darkness (with `negate`: its lightness) is above `occupied_thresh`, and free if it is
-    below `free_thresh`. Between the thresholds it is unknown in the mode `trinary`, and free in the mode `scale`,
-    because only certain obstacles stop Nav2's planners. In the mode `raw` the grey value is the occupancy in percent;
-    above 100 it is unknown. Transparent pixels are unknown. If the origin has a yaw, the map is rotated about the lower
-    left corner of the image; it is resampled unless the yaw is a quarter turn.
+    A pixel is occupied if its darkness (with `negate`: its lightness) is at least `occupied_thresh`, and otherwise free
+    if it is at most `free_thresh`. Between the thresholds it is unknown in the mode `trinary`, and free in the mode
+    `scale`, because only certain obstacles stop Nav2's planners. In the mode `raw` the grey value is the occupancy in
+    percent: occupied from `occupied_thresh`, free below, and unknown above 100. Pixels that are not opaque are unknown
+    in every mode. If the origin has a yaw, the map is rotated about the lower left corner of the image; it is resampled
+    unless the yaw is a quarter turn.
     """
 
     file: Path = option(help="The .yaml file.")
@@ -66,35 +72,40 @@ class RosMap(WorldSource):
             raise fields["resolution"].error("resolution should be positive")
         x, y, *yaw = (value.number() for value in fields["origin"].items(least=2))
         image = self.image or self.file.parent / fields["image"].text()
-        blocked = self._blocked(fields, read_image(image, fields.get("image", top)))
-        occupancy = Occupancy(blocked=blocked[::-1], cell_size=size, origin=(x, y))
         notes = [f"key {key!r} is not known and has no effect." for key in fields if key not in KEYS]
+        occupied, unknown = _classify(fields, read_image(image, fields.get("image", top)))
+        blocked = occupied if self.unknown == "free" else occupied | unknown
+        if not occupied.any():
+            notes.append("no cell is occupied, so the map has no walls (image, mode, negate, occupied_thresh).")
+        if blocked.all():
+            notes.append("no cell is free (image, mode, negate, free_thresh; option unknown).")
+        occupancy = Occupancy(blocked=blocked[::-1], cell_size=size, origin=(x, y))
         angle = math.remainder(yaw[0] if yaw else 0.0, 2 * math.pi)
         if not math.isclose(angle, round(angle / (math.pi / 2)) * math.pi / 2, abs_tol=1e-6):
             notes.append(f"the map is rotated by {math.degrees(angle):.2f}° and resampled.")
         level = Level(name="L1", occupancy=rotate(occupancy, angle))
         return World(name=self.file.name.split(".")[0], levels=(level,), notes=tuple(notes))
 
-    def _blocked(self, fields: dict[str, Node], image: GreyscaleImage) -> Bool:
-        """bool[rows, columns], row 0 at the top."""
-        high, low = _share(fields, "occupied_thresh", 0.65), _share(fields, "free_thresh", 0.25)
-        if low > high:
-            raise fields["free_thresh" if "free_thresh" in fields else "occupied_thresh"].error(
-                f"free_thresh {low:g} should not exceed occupied_thresh {high:g}"
-            )
-        mode = fields["mode"].text() if "mode" in fields else "trinary"
-        if mode not in MODES:
-            raise fields["mode"].error(f"mode {mode!r} is not known", f"modes: {', '.join(MODES)}")
-        if mode == "raw":
-            percent = np.rint(image.lightness * 255)
-            occupied, unknown = (percent >= high * 100) & (percent <= 100), percent > 100
-        else:
-            occupancy = image.lightness if _flag(fields, "negate") else 1 - image.lightness
-            occupied = occupancy > high
-            unknown = (occupancy >= low) & ~occupied if mode == "trinary" else np.zeros_like(occupied)
-        free = self.unknown == "free"
-        blocked: Bool = (occupied & ~unknown if free else occupied | unknown)[image.tone]
-        return blocked & ~image.transparent if free else blocked | image.transparent
+
+def _classify(fields: dict[str, Node], image: GreyscaleImage) -> tuple[Bool, Bool]:
+    """Which cells are occupied and which unknown, both bool[rows, columns], row 0 at the top."""
+    high, low = _share(fields, "occupied_thresh", 0.65), _share(fields, "free_thresh", 0.25)
+    if low > high:
+        raise fields["free_thresh" if "free_thresh" in fields else "occupied_thresh"].error(
+            f"free_thresh {low:g} should not exceed occupied_thresh {high:g}"
+        )
+    mode = fields["mode"].text().lower() if "mode" in fields else "trinary"
+    if mode not in MODES:
+        raise fields["mode"].error(f"mode {mode!r} is not known", f"modes: {', '.join(MODES)}")
+    if mode == "raw":
+        percent = np.rint(image.lightness * 255)
+        occupied, unknown = (percent >= high * 100 - TOLERANCE) & (percent <= 100), percent > 100
+    else:
+        occupancy = image.lightness if _flag(fields, "negate") else 1 - image.lightness
+        occupied = occupancy >= high - TOLERANCE
+        between = (occupancy > low + TOLERANCE) & ~occupied
+        unknown = between if mode == "trinary" else np.zeros_like(between)
+    return occupied[image.tone] & image.opaque, unknown[image.tone] | ~image.opaque
 
 
 def _share(fields: dict[str, Node], key: str, default: float) -> float:
@@ -108,6 +119,7 @@ def _share(fields: dict[str, Node], key: str, default: float) -> float:
 
 def _flag(fields: dict[str, Node], key: str) -> bool:
     value = fields[key].value if key in fields else False
+    value = WORDS.get(str(value).lower(), value)
     if value not in (0, 1):
         raise fields[key].error(f"{key} should be 0 or 1, not {value!r}")
     return bool(value)

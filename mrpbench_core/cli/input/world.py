@@ -6,8 +6,8 @@ from typing import Any
 import attrs
 
 from mrpbench_core.api.world import WorldSource
+from mrpbench_core.config.maps import map_plugin
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.yaml import load
 from mrpbench_core.plugins.registry import Registry
 
 
@@ -17,7 +17,7 @@ def world_source(name: str, level: str | None = None) -> WorldSource:
     Raises:
         InputError: there is no such world.
     """
-    loader = _loader(Path(name))
+    loader = map_plugin(Path(name))
     options: dict[str, Any] = {"file": Path(name)} if loader else {}
     if level is not None:
         options["level"] = level
@@ -42,13 +42,3 @@ def make_component(component: Any, name: str, options: dict[str, Any]) -> Any:
         return component(**options)
     except (TypeError, ValueError) as error:
         raise InputError(f"{name}: {error.args[0]}") from None
-
-
-def _loader(file: Path) -> str | None:
-    """Return the plugin that reads a file, or None for the name of a world."""
-    if file.suffix == ".map":
-        return "movingai"
-    if file.suffix not in (".yaml", ".yml"):
-        return None
-    data = load(file).data
-    return "ros_map" if isinstance(data, dict) and "resolution" in data else "rmf"

@@ -14,11 +14,14 @@ from mrpbench_core.files.printing import printable
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.report.reading.axes import word
+from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_core.store.results import Results
 
 SHORT = 12
 """Printed characters of a run id; commands accept any unique prefix."""
 REFRESH_S = 0.1
+TOLD_S = 60.0
+"""Seconds between two lines on how long a study has taken, where there is no live line."""
 GOING_S = 0.5
 """Seconds between two looks at how far a run is."""
 
@@ -34,13 +37,17 @@ class Printed(StudyProgress):
         self._total = 0
         self._going: dict[str, StudyRun] = {}
         self._counts: Counter[str] = Counter()
-        self._began = self._drawn = time.monotonic()
+        self._began = self._drawn = self._told = time.monotonic()
+        self._folder: ResultsFolder | None = None
+        self._warned = False
 
     def selected(self, selection: Selection, results: Results) -> None:
         """Print the number of runs to execute."""
         for error in results.damaged:
             sys.stderr.write(f"{error}\n")
-        self._total, self._counts, self._began = len(selection.todo), Counter(), time.monotonic()
+        self._total, self._counts, self._folder = len(selection.todo), Counter(), results.folder
+        self._began = self._told = time.monotonic()
+        self._warned = False
         recorded = sum(run_id in results for run_id in selection.chosen)
         chosen = counted(len(selection.chosen), "run")
         print(f"{results.folder.path}: {self._total} of {chosen} to do, {recorded} recorded")
@@ -65,7 +72,12 @@ class Printed(StudyProgress):
         """Count the run; on a terminal only a failure gets a line of its own."""
         said = [(record.get("error") or {}).get("message", "")]
         said += [f"no export {name}: {reason}" for name, reason in record.get("unexported", {}).items()]
+        if record["status"] == RunStatus.CRASHED and self._folder is not None:
+            said.append(f"see {self._folder.log(point.run_id)}")
         self._end(point, record["status"], "; ".join(filter(None, said)))
+        if record["status"] == RunStatus.GOALS_MISSED and not self._warned and (note := _too_short(record)):
+            self._warned = True
+            self._say(note)
 
     def lost(self, point: StudyRun, reason: str) -> None:
         """Print that the run is repeated."""
@@ -92,6 +104,9 @@ class Printed(StudyProgress):
             axes = " ".join(f"{key}={word(value)}" for key, value in point.axes.items())
             line = " ".join(filter(None, (done, point.run_id[:SHORT], status, axes)))
             self._say(f"{line}: {message}" if message else line)
+        if not self._live and (now := time.monotonic()) - self._told >= TOLD_S:
+            self._told = now
+            self._say(f"{self._counts.total()} of {self._total} runs after {self._clocks(now)}")
         self._draw()
 
     def _far(self, run_id: str) -> str:
@@ -120,13 +135,28 @@ class Printed(StudyProgress):
         self._drawn = now
         done = self._counts.total()
         counts = ", ".join(f"{count} {status}" for status, count in self._counts.most_common())
-        left = (now - self._began) / done * (self._total - done) if done else 0.0
-        eta = f" · {_clock(left)} left" if done else ""
         going = " ".join(self._far(run_id) for run_id in self._going)
-        line = f"[{done}/{self._total}] {counts}{eta} · {going}"
+        line = f"[{done}/{self._total}] {' · '.join(filter(None, (counts, self._clocks(now), going)))}"
         width = shutil.get_terminal_size().columns - 1  # a wrapped line cannot be erased
         self._erase()
         print(printable(line)[:width], end="", flush=True)
+
+    def _clocks(self, now: float) -> str:
+        """The time since the beginning and, after the first run, the time that is left."""
+        passed, done = now - self._began, self._counts.total()
+        left = f", about {_clock(passed / done * (self._total - done))} left" if done else ""
+        return _clock(passed) + left
+
+
+def _too_short(record: dict[str, Any]) -> str | None:
+    """Say that no execution within the limit could end a plan."""
+    takes, limit = record["metrics"].get("planning.makespan"), record["config"]["limits"]["execution"]
+    if takes is None or takes <= limit:
+        return None
+    return (
+        f"note: the plan of {record['run_id'][:SHORT]} takes {takes:.0f} s, and limits.execution is {limit:g} s, so its"
+        " robots cannot arrive: raise limits.execution"
+    )
 
 
 def _clock(seconds: float) -> str:

@@ -12,8 +12,9 @@ from mrpbench_core.files.text import counted
 from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.estimation.groups import RunGroup, group_runs
 from mrpbench_core.report.reading.axes import word
-from mrpbench_core.report.reading.columns import primary_columns, read_columns
+from mrpbench_core.report.reading.columns import SHOWN_IF_ANY, primary_columns, read_columns, shown_columns
 from mrpbench_core.report.reading.runs import PAR2, Runs, read_runs
+from mrpbench_core.report.tables.table import exact
 from mrpbench_core.store.results import Results
 
 ABREAST = 4
@@ -39,8 +40,9 @@ def print_summary(results: Results, limit: int | None = None) -> Counter[str]:
     Returns:
         The number of runs of each status, `promise_broken` included.
     """
-    shown = [column.name for column in primary_columns(read_columns([results])) if column.name != PAR2]
-    runs = read_runs([results], shown)
+    known = read_columns([results])
+    runs = read_runs([results], [*(column.name for column in primary_columns(known)), *SHOWN_IF_ANY])
+    shown = [column.name for column in shown_columns(known, runs.values) if column.name != PAR2]
     if not len(runs):
         return Counter()
     groups = group_runs(runs)
@@ -78,4 +80,4 @@ def _mean(runs: Runs, found: RunGroup, key: str) -> str | None:
     having = values[np.isfinite(values)]
     if not len(having):
         return None
-    return f"{having.mean():.4g}" + ("" if len(having) == len(found.members) else f" (n={len(having)})")
+    return f"{exact(having.mean()):.4g}" + ("" if len(having) == len(found.members) else f" (n={len(having)})")

@@ -120,17 +120,19 @@ def _serve(
             state.unpack = Unpacking(job["parcel"])
     flush()
     server = os.getpid()
+    while resident:
+        _, descriptors, _, _ = socket.recv_fds(connection, _NAMES, 1)
+        if not descriptors:  # the supervisor closed its end
+            os._exit(0)
+        execute(socket.socket(fileno=descriptors[0]), state, lambda: None)
+        channel.send({"ended": 0})
     while True:
         words = np.frombuffer(os.urandom(4 * 624), np.uint32)
         np.random.set_state(("MT19937", words, 624, 0, 0.0))  # noqa: NPY002 - other random numbers for plugins in each process
         gc.freeze()  # collections in the forked processes then leave the shared memory alone
         name, descriptors, _, _ = socket.recv_fds(connection, _NAMES, 1)
-        if not descriptors:  # the supervisor closed its end
+        if not descriptors:
             os._exit(0)
-        if resident:
-            execute(socket.socket(fileno=descriptors[0]), state, lambda: None)
-            channel.send({"ended": 0})
-            continue
         state.read(name.decode())
         imported, writer = os.pipe()
         pid = os.fork()

@@ -74,8 +74,12 @@ class LimitMonitor:
         """The failure of a job that exceeds its memory limit, or None."""
         if memory <= self._memory_bytes:
             return None
-        held, allowed = memory / 2**20, self._memory_bytes / 2**20
-        return self.failure(RunStatus.OUT_OF_MEMORY, f"held {held:.0f} MiB, limits.memory allows {allowed:.0f} MiB")
+        return self.failure(RunStatus.OUT_OF_MEMORY, f"the run held {memory / 2**20:.0f} MiB; {self.allowance}")
+
+    @property
+    def allowance(self) -> str:
+        """What the run may hold, and the option that says so."""
+        return f"the option limits.memory allows {self._memory_bytes / 2**20:.0f} MiB"
 
     def failure(self, status: RunStatus, message: str, lost: bool = False) -> Failure:
         """A failure in the current stage."""

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from mrpbench_core.engine.stages.question import SETTINGS
+from mrpbench_core.engine.prepare.question import SETTINGS
 from mrpbench_core.store.paths import instances_of
 
 Message = dict[str, Any]

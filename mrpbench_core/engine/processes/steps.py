@@ -20,14 +20,14 @@ from mrpbench_core.api.metric import Metric
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.structure import Structure
 from mrpbench_core.config.unpacking import Unpack, unpack
-from mrpbench_core.engine.drive import Claims, drive
+from mrpbench_core.engine.drive.drive import Claims, drive
 from mrpbench_core.engine.json_values import jsonable
 from mrpbench_core.engine.judging import Prepared, keep, record_of
+from mrpbench_core.engine.prepare.fleet import build_fleet
+from mrpbench_core.engine.prepare.question import SETTINGS, Question
 from mrpbench_core.engine.processes.channel import Channel
 from mrpbench_core.engine.run import ended_before, prepare
 from mrpbench_core.engine.stage import RunEnded, RunInputs
-from mrpbench_core.engine.stages.fleet import build_fleet
-from mrpbench_core.engine.stages.question import SETTINGS, Question
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.instance import Instance
 from mrpbench_core.model.runs.status import RunStatus, Stage

@@ -210,7 +210,7 @@ class Supervision:
             return self._failure(RunStatus.CRASHED, f"the worker process ended with exit code {code}")
         number = os.WTERMSIG(status)
         if number == signal.SIGKILL and oom_kills() > self._oom_before:
-            ended = "the machine ran out of memory, and the kernel ended the run"
+            ended = f"the machine ran out of memory, and the kernel ended the run; {self._monitor.allowance}"
             return self._failure(RunStatus.OUT_OF_MEMORY, ended)
         ended = f"the worker process was ended by {signal.Signals(number).name}"
         return self._failure(RunStatus.CRASHED, ended, lost=number in OUTSIDE)

@@ -91,7 +91,14 @@ def _guarded(job: dict[str, Any], channel: Channel, state: State) -> dict[str, A
         return {"status": RunStatus.CONTRACT_BROKEN, "message": printable(broken(error, state.config))}
     except MemoryError as error:
         _print_exception()
-        return {"status": RunStatus.OUT_OF_MEMORY, "message": printable(str(error)) or "no memory left"}
+        held = f"the process held {resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 2**10:.0f} MiB"
+        allowed = (
+            ""
+            if state.config is None
+            else f"; the option limits.memory allows {state.config.limits.memory / 2**20:.0f} MiB"
+        )
+        message = f"{printable(str(error)) or 'no memory left'} ({held}{allowed})"
+        return {"status": RunStatus.OUT_OF_MEMORY, "message": message}
     except BaseException as error:  # noqa: BLE001 - a plugin may raise anything, even SystemExit
         if is_full(error) and not _limits_files():  # the run is to be done again
             return {"mistake": f"{job['recording']}: cannot be written: {jsonable(printable(str(error)))}"}

@@ -6,10 +6,11 @@ from collections.abc import Sequence
 from mrpbench_core.report.answer.ranking import Place, Ranking
 from mrpbench_core.report.reading.columns import direction
 from mrpbench_core.report.statistics.estimate import IntervalEstimate
-from mrpbench_core.report.tables.table import decimals, fixed
+from mrpbench_core.report.tables.table import decimals, exact, fixed
 
 _MILLI = 0.1
 """Seconds below which times are written in milliseconds."""
+_SPOKEN = {"1/h": "per hour", "1/s": "per second"}
 _DIGITS = 3
 """Significant digits of a number without interval."""
 
@@ -47,12 +48,17 @@ def largest(ranking: Ranking, places: Sequence[Place]) -> str | None:
 
 def reading(ranking: Ranking) -> str:
     """Say over what the means are, which way is better, and which differences do not matter."""
-    column = ranking.column
-    told = f"Mean over {ranking.ranked} {ranking.unit}, 95 % intervals."
+    column, found = ranking.column, [place.estimate for place in ranking.places if place.estimate is not None]
+    told = f"{'Share' if ranking.is_rate else 'Mean'} over {ranking.ranked} {ranking.unit}"
+    told += " [95 % interval]." if any(estimate.has_interval for estimate in found) else "."
     told += {1: " More is better.", -1: " Less is better."}.get(direction(column), "")
     if column.threshold is None:
         return f"{told} The metric states no threshold."
-    least = f"{100 * column.threshold:g} points" if ranking.is_rate else f"{column.threshold:g} {column.unit}".strip()
+    least = (
+        f"{100 * column.threshold:g} points"
+        if ranking.is_rate
+        else f"{column.threshold:g} {_SPOKEN.get(column.unit, column.unit)}".strip()
+    )
     share = f" or {100 * column.threshold_share:g} %" if column.threshold_share else ""
     return f"{told} Differences below {least}{share} do not matter (grey band)."
 
@@ -62,7 +68,7 @@ def scale(ranking: Ranking, largest: float) -> tuple[float, str]:
     if ranking.is_rate:
         return 100.0, "%"
     unit = ranking.column.unit
-    return (1000.0, "ms") if unit == "s" and 0 < largest < _MILLI else (1.0, unit)
+    return (1000.0, "ms") if unit == "s" and 0 < largest < _MILLI else (1.0, _SPOKEN.get(unit, unit))
 
 
 def _bare(ranking: Ranking, value: float, *, points: bool = False) -> str:
@@ -70,7 +76,7 @@ def _bare(ranking: Ranking, value: float, *, points: bool = False) -> str:
 
 
 def _written(ranking: Ranking, found: IntervalEstimate, way: str = "", *, points: bool = False) -> str:
-    ends = (found.value, found.low, found.high) if found.has_interval else (found.value,)
+    ends = tuple(map(exact, (found.value, found.low, found.high) if found.high > found.low else (found.value,)))
     factor, unit = scale(ranking, max(map(abs, ends)))
     unit = "points" if points and ranking.is_rate else unit
     value, *interval = (end * factor for end in ends)

@@ -8,8 +8,8 @@ import attrs
 from mrpbench_core.api.metric import Column
 from mrpbench_core.files.extras import has
 from mrpbench_core.report.answer.headline import headline
-from mrpbench_core.report.answer.questions import Topic, find_topics
-from mrpbench_core.report.answer.ranking import Compared, Ranking, by_names, rank
+from mrpbench_core.report.answer.questions import Topic, find_topics, has_tasks, words_of
+from mrpbench_core.report.answer.ranking import Compared, Ranking, by_names, is_identical, rank
 from mrpbench_core.report.answer.wording import exceptions, sentences
 from mrpbench_core.report.estimation.comparison import Comparison, compare_settings
 from mrpbench_core.report.estimation.effects import find_effects
@@ -46,6 +46,8 @@ class SettingAnswer:
     name: str
     setting: Setting
     headline: str
+    advice: str
+    """What may show more than these runs do; empty if something is shown."""
     topics: tuple[TopicAnswer, ...]
 
 
@@ -64,11 +66,13 @@ class Answer:
         """Yield the answer as lines of text, with at most this number of settings."""
         for effect in self.effects:
             yield f"{effect.name}: {effect.headline}"
+            yield from filter(None, [effect.advice])
             yield from (topic.line for topic in effect.topics)
         for number, part in enumerate([*([self.whole] if self.whole else ()), *self.parts[:parts]]):
             name = part.name or ("all settings together" if self.parts else "")
             name = name or ("all combinations" if self.effects else "")
             yield f"{name}: {part.headline}" if name else part.headline
+            yield from filter(None, [part.advice if number == 0 and not self.effects else ""])
             for topic in part.topics if number == 0 and not self.effects else ():
                 yield topic.line
         if len(self.parts) > parts:
@@ -135,7 +139,7 @@ def _answer(
     for topic in topics:
         first, *others = (rank(runs, setting, column, compared) for column in topic.columns)
         more = (
-            f"{ranking.column.name}: {' '.join(sentences(ranking))}"
+            f"{words_of(ranking.column).capitalize()}: {' '.join(sentences(ranking))}"
             for ranking in others
             if ranking.having(Relation.WORSE, Relation.BETTER)
         )
@@ -143,4 +147,7 @@ def _answer(
             TopicAnswer(title=topic.title, ranking=first, sentences=(*sentences(first), *further(first), *more))
         )
     asked = [(topic.noun, entry.ranking) for topic, entry in zip(topics, found, strict=True)]
-    return SettingAnswer(name=setting.name, setting=setting, headline=headline(asked, noun), topics=tuple(found))
+    head = headline(asked, noun, identical=is_identical(compared), tasks=has_tasks(runs))
+    return SettingAnswer(
+        name=setting.name, setting=setting, headline=head.sentence, advice=head.advice, topics=tuple(found)
+    )

@@ -62,7 +62,9 @@ def choose_examples(report: Report, answer: Answer) -> list[Examples]:
 
 
 def _of_setting(report: Report, part: SettingAnswer) -> Examples:
-    ranking = next((t.ranking for t in part.topics if t.ranking.column.answers == "duration"), None)
+    topic = next((topic for topic in part.topics if topic.ranking.column.answers == "duration"), None)
+    ranking = topic.ranking if topic else None
+    what = "" if topic is None or topic.title.endswith("?") else f"{topic.title.lower()} "
     counted = np.concatenate([group.counted for group in part.setting.groups])
     runs = [*_failed(report, part, counted)]
     if ranking is not None:
@@ -74,7 +76,9 @@ def _of_setting(report: Report, part: SettingAnswer) -> Examples:
             for run in islice(_recorded(report, candidates), 1):
                 if run not in [example.run for example in runs]:
                     took = quantity(ranking, IntervalEstimate(float(values[run]), np.nan, np.nan, 1))
-                    runs.append(Example(run=run, label=label, text=f"{_name(part, run)}, {_seed(report, run)}: {took}"))
+                    runs.append(
+                        Example(run=run, label=label, text=f"{_name(part, run)}, {_seed(report, run)}: {what}{took}")
+                    )
     contrast = _contrast(report, part, ranking) if ranking is not None else None
     return Examples(name=part.name, runs=tuple(runs), contrast=contrast)
 

@@ -8,7 +8,6 @@ import numpy as np
 
 from mrpbench_core.api.metric import Column, Question
 from mrpbench_core.report.reading.axes import word
-from mrpbench_core.report.reading.columns import heading
 from mrpbench_core.report.reading.runs import Runs
 
 TITLES: dict[str, str] = {
@@ -16,9 +15,9 @@ TITLES: dict[str, str] = {
     "service": "How long does a task take?",
     "queue": "How many tasks are open?",
     "arrival": "Do the robots arrive?",
-    "duration": "How long does it take?",
-    "planning": "What does planning cost?",
-    "proximity": "How near do robots come?",
+    "duration": "How long do the robots take?",
+    "planning": "How long does planning take?",
+    "proximity": "How near do robots come to each other?",
 }
 NOUNS: dict[str, str] = {
     "throughput": "throughput",
@@ -26,11 +25,16 @@ NOUNS: dict[str, str] = {
     "queue": "open tasks",
     "arrival": "arrivals",
     "duration": "time",
-    "planning": "cost of planning",
+    "planning": "planning time",
     "proximity": "distance between robots",
 }
 """What a headline calls the questions."""
-_PLANS_ONLY = "Is a plan found?", "plans found"
+_OTHERWISE = {
+    ("arrival", "plans"): ("Is a plan found?", "plans found"),
+    ("arrival", "tasks"): ("Do all runs succeed?", "success"),
+    ("duration", "plans"): ("How long are the plans?", "length of the plans"),
+}
+"""Title and noun where robots only plan, and where they have tasks over time."""
 
 
 @attrs.frozen(kw_only=True)
@@ -52,7 +56,7 @@ def find_topics(runs: Runs, compared: Sequence[Column]) -> list[Topic]:
         compared: the columns that a report compares.
     """
     having = [column for column in compared if np.isfinite(runs.values[column.name]).any()]
-    topics = []
+    topics, kind = [], _kind(runs)
     for question in get_args(Question):
         found = [column for column in having if column.answers == question]
         # Rates and primary columns; others only if nothing else answers.
@@ -62,14 +66,31 @@ def find_topics(runs: Runs, compared: Sequence[Column]) -> list[Topic]:
         # What happened counts more than what was planned.
         ranking = next((c for c in found if c.stage == "execution"), found[0])
         others = (c for c in found if c is not ranking and (c.stage == ranking.stage or question == "arrival"))
-        named = TITLES[question], NOUNS[question]
-        if question == "duration" and any(column.answers == "service" for column in having):
-            named = heading(ranking), ranking.name  # runs with tasks over time end when they are told to
-        title, noun = _PLANS_ONLY if question == "arrival" and _never_driven(runs) else named
+        title, noun = _OTHERWISE.get((question, kind), (TITLES[question], NOUNS[question]))
+        if (question == "duration" and kind == "tasks") or (question == "planning" and ranking.unit != "s"):
+            title, noun = _named(ranking)  # runs with tasks over time end when they are told to
         topics.append(Topic(title=title, noun=noun, columns=(ranking, *others)))
-    own = (column for column in having if column.primary and column.answers is None)
-    return [*topics, *(Topic(title=heading(column), noun=column.name, columns=(column,)) for column in own)]
+    own = [column for column in having if column.primary and column.answers is None]
+    return [*topics, *(Topic(title=_named(column)[0], noun=_named(column)[1], columns=(column,)) for column in own)]
 
 
-def _never_driven(runs: Runs) -> bool:
-    return all(word(config.get("simulator", "unknown")) == "none" for config in runs.configs)
+def has_tasks(runs: Runs) -> bool:
+    """Tell whether all runs have tasks over time."""
+    return all(word(config.get("tasks")) != "none" for config in runs.configs)
+
+
+def words_of(column: Column) -> str:
+    """Return the name of a column in words: `time blocked` for `execution.time_blocked_s`."""
+    name = column.name.rpartition(".")[2].removesuffix(f"_{column.unit}" if column.unit else "")
+    return name.replace("_", " ")
+
+
+def _named(column: Column) -> tuple[str, str]:
+    words = words_of(column)
+    return words[0].upper() + words[1:], words
+
+
+def _kind(runs: Runs) -> str:
+    if all(word(config.get("simulator", "unknown")) == "none" for config in runs.configs):
+        return "plans"
+    return "tasks" if has_tasks(runs) else "drives"

@@ -74,6 +74,13 @@ def by_names(comparisons: Iterable[Comparison], setting: str) -> Compared:
     }
 
 
+def is_identical(compared: Compared) -> bool:
+    """Tell whether the configurations have the same values in all pairs; what the engine measures does not count."""
+    found = [entry for (column, _), entry in compared.items() if not column.startswith("timing.")]
+    has_values = any(not entry.is_rate for entry in found)  # that all succeed says little
+    return has_values and all(entry.found.ties == entry.found.difference.n for entry in found)
+
+
 def rank(runs: Runs, setting: Setting, column: Column, compared: Compared) -> Ranking:
     """Rank the groups of a setting by the mean of a column.
 

@@ -10,7 +10,7 @@ from mrpbench_core.report.statistics.means import LEAST
 
 NAMED = 3
 """Configurations that a sentence names; of more it gives the number."""
-_ALIKE = (Relation.SAME, Relation.SLIGHT)
+_ALIKE = (Relation.IDENTICAL, Relation.SAME, Relation.SLIGHT)
 _OPEN = (Relation.OPEN, Relation.NOT_COMPARED)
 
 
@@ -30,8 +30,10 @@ def sentences(ranking: Ranking) -> list[str]:
         told.append(f"{len(apart) - NAMED} more differ.")
     if without := [place.name for place in others if place.estimate is None]:
         told.append(f"{listed(without)} {'has' if len(without) == 1 else 'have'} no value.")
-    if ranking.ranked < LEAST:
-        told.append(f"{_units(ranking, ranking.ranked)}: too few for intervals and tests.")
+    if ranking.ranked < LEAST and not all(place.relation is Relation.IDENTICAL for place in others):
+        few = "is too few" if ranking.ranked == 1 else "are too few"
+        lacking = "a test" if ranking.is_rate else "intervals and tests"
+        told.append(f"{_units(ranking, ranking.ranked)} {few} for {lacking}.")
     return told
 
 
@@ -74,27 +76,29 @@ def _first(ranking: Ranking, first: Place, others: Sequence[Place]) -> list[str]
     alike = [place.name for place in others if place.relation in _ALIKE]
     unknown = [place for place in others if place.relation in _OPEN]
     everyone = [first.name, *(place.name for place in others)]
-    if others and len(alike) == len(others):
-        all_of_them = listed(everyone) if len(everyone) <= NAMED else f"All {len(everyone)}"
-        return [f"{all_of_them} do not differ noticeably: {span(ranking)}."]
     assert first.estimate is not None
+    all_of_them = listed(everyone) if len(everyone) <= NAMED else f"All {len(everyone)}"
+    if others and all(place.relation is Relation.IDENTICAL for place in others):
+        each = f"{'each of ' * (ranking.ranked > 1)}{_units(ranking, ranking.ranked)}"
+        return [f"{all_of_them} are identical in {each}: {quantity(ranking, first.estimate)}."]
+    if others and len(alike) == len(others):
+        return [f"{all_of_them} differ too little to matter: {span(ranking)}."]
     if others and all(place.relation is Relation.OPEN for place in others):
         possible = largest(ranking, unknown)
-        more = [f"Differences of up to {possible} remain possible."] if possible else []
-        if all(place.estimate == first.estimate for place in others):
-            return [f"All {len(everyone)} have {quantity(ranking, first.estimate)}.", *more]
-        return [f"The data do not tell {listed(everyone)} apart: {span(ranking)}.", *more]
+        more = [f"The difference may be up to {possible}."] if possible else []
+        return [f"There is no clear difference between {listed(everyone)}: {span(ranking)}.", *more]
     told = [f"{first.name} has the best mean: {quantity(ranking, first.estimate)}."]
     if alike:
-        told.append(f"{listed(alike)} {'does' if len(alike) == 1 else 'do'} not differ noticeably from it.")
-    for kind, link in ((Relation.OPEN, "from"), (Relation.NOT_COMPARED, "with")):
-        found = [place.name for place in unknown if place.relation is kind]
-        told += [f"{listed(found)} {_is_or_are(found)} {kind.value} {link} it."] if found else []
+        told.append(f"{listed(alike)} {'differs' if len(alike) == 1 else 'differ'} too little from it to matter.")
+    if found := [place.name for place in unknown if place.relation is Relation.OPEN]:
+        told.append(f"There is no clear difference to {listed(found)}.")
+    if found := [place.name for place in unknown if place.relation is Relation.NOT_COMPARED]:
+        told.append(f"{listed(found)} {_is_or_are(found)} not compared with it.")
     return told
 
 
 def _of_two(ranking: Ranking, place: Place) -> list[str]:
-    """Say how the second of two differs in numbers, where it is not shown to differ noticeably."""
+    """Say how the second of two differs in numbers, where a difference is neither shown nor excluded."""
     found = place.difference
     if place.relation not in (*_ALIKE, Relation.OPEN) or found is None or not found.has_interval or not found.value:
         return []

@@ -19,13 +19,15 @@ class Relation(StrEnum):
 
     BETTER = "noticeably better"
     WORSE = "noticeably worse"
+    IDENTICAL = "identical"
+    """The same value in every scenario that both have."""
     SLIGHT = "a difference too small to matter"
     """Significant, but below the threshold."""
     UNRATED = "a significant difference"
     """The column declares no threshold, so nothing says whether it matters."""
     SAME = "practically the same"
     """Not significant, and the interval excludes every difference that matters."""
-    OPEN = "not told apart"
+    OPEN = "no clear difference"
     """Not significant, and the interval allows differences that matter, or there is none."""
     NOT_COMPARED = "not compared"
     """They differ in several choices, or share no unit."""
@@ -35,6 +37,8 @@ def relation(comparison: Comparison) -> Relation:
     """Return what is known of the second group, compared with the first."""
     found, column = comparison.found, comparison.column
     difference, threshold = found.difference, least_noticeable(comparison)
+    if found.ties == difference.n:
+        return Relation.IDENTICAL
     if not is_shown(comparison):
         alike = threshold is not None and difference.has_interval
         alike = alike and max(abs(difference.low), abs(difference.high)) < threshold  # type: ignore[operator]

@@ -5,7 +5,7 @@ from html import escape
 
 from mrpbench_core.report.answer.amounts import reading
 from mrpbench_core.report.answer.answer import Answer, SettingAnswer, TopicAnswer
-from mrpbench_core.report.html.cells import breakable
+from mrpbench_core.report.html.cells import breakable, prose
 from mrpbench_core.report.html.ranking import draw_ranking
 
 OPEN = 12
@@ -29,10 +29,18 @@ def answer_section(answer: Answer) -> str:
 def headline(answer: Answer) -> str:
     """Return the first sentence of the page."""
     if answer.effects:
-        return "<br>".join(f"<b>{escape(_title(effect))}:</b> {escape(effect.headline)}" for effect in answer.effects)
+        return "<br>".join(f"<b>{escape(_title(effect))}:</b> {prose(effect.headline)}" for effect in answer.effects)
     if answer.whole is not None:
-        return escape(answer.whole.headline)
+        return prose(answer.whole.headline)
     return "The settings have different configurations, so each has an answer of its own."
+
+
+def advice(answer: Answer) -> str:
+    """Return what may show more than these runs do."""
+    parts = answer.effects or ((answer.whole,) if answer.whole else ())
+    return "".join(
+        f'<p class="advice">{prose(text)}</p>' for text in dict.fromkeys(part.advice for part in parts) if text
+    )
 
 
 def _settings(parts: Sequence[SettingAnswer]) -> str:
@@ -61,7 +69,7 @@ def _card(topic: TopicAnswer) -> str:
     says, rest = (escape(" ".join(part)) for part in (topic.sentences[:SAID], topic.sentences[SAID:]))
     rest = f"<details><summary>Further differences</summary><p>{rest}</p></details>" if rest else ""
     column = topic.ranking.column
-    note = f"<code>{breakable(column.name)}</code>: {escape(column.description)}. {escape(reading(topic.ranking))}"
+    note = f"<code>{breakable(column.name)}</code>: {prose(column.description)}. {escape(reading(topic.ranking))}"
     return (
         f'<article class="card"><h3>{escape(topic.title)}</h3><p class="says">{says}</p>'
         f'{draw_ranking(topic.ranking)}{rest}<p class="note">{note}</p></article>'

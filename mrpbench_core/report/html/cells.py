@@ -53,6 +53,11 @@ def breakable(name: str) -> str:
     return re.sub(r"[._/]", r"\g<0><wbr>", escape(name))
 
 
+def prose(text: str) -> str:
+    """Return text whose words in backticks are code."""
+    return re.sub("`([^`]+)`", r"<code>\1</code>", escape(text))
+
+
 def _cell(head: str, cell: Td) -> str:
     value = "" if cell.value is None else f' data-value="{cell.value:.9g}"'
     return f'<td{_attribute("class", cell.style)} data-label="{escape(head)}"{value}>{cell.markup}</td>'

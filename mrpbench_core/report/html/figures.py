@@ -61,7 +61,9 @@ def _means(report: Report, setting: Setting, numbers: Sequence[Numbers]) -> list
         rows = [(name, index, numbers[index].common[column.name]) for index, name in enumerate(setting.names)]
         count = max((entry.n for _, _, entry in rows if entry is not None), default=0)
         best = {1: " More is better.", -1: " Less is better."}.get(direction(column), "")
-        text = f"Mean over the {count} {setting.unit} that all groups have in common; bootstrap 95 %.{best}"
+        has_intervals = any(entry.has_interval for _, _, entry in rows if entry is not None)
+        text = f"Mean over the {count} {setting.unit} that all groups have in common"
+        text += f"{'; bootstrap 95 %' if has_intervals else ''}.{best}"
         found.append((intervals(rows, heading(column), percent=False), text))
     return found
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from mrpbench_core.files.text import counted
 from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.answer.answer import Answer, make_answer
-from mrpbench_core.report.html.answer import answer_section, headline
+from mrpbench_core.report.html.answer import advice, answer_section, headline
 from mrpbench_core.report.html.figures import figures
 from mrpbench_core.report.html.listing import LISTED, packed_runs, tone
 from mrpbench_core.report.html.origin import origin
@@ -60,6 +60,7 @@ def write_report(
         "title": escape(title),
         "links": "".join(f'<a href="#{section}">{words}</a>' for section, words in SECTIONS.items()),
         "headline": headline(answer),
+        "advice": advice(answer),
         "answer": answer_section(answer),
         "examples": examples,
         "summary": _summary(report, answer, counts),

@@ -15,10 +15,11 @@ _TAGS = {
     None: ("first", "best mean"),
     Relation.BETTER: ("open", "better where both have a value"),
     Relation.WORSE: ("worse", "noticeably worse"),
+    Relation.IDENTICAL: ("same", "identical"),
     Relation.SLIGHT: ("same", "too small to matter"),
     Relation.UNRATED: ("open", "differs; no threshold"),
     Relation.SAME: ("same", "practically the same"),
-    Relation.OPEN: ("open", "not told apart"),
+    Relation.OPEN: ("open", "no clear difference"),
     Relation.NOT_COMPARED: ("open", "not compared"),
 }
 
@@ -62,8 +63,8 @@ def _axis(ranking: Ranking, places: tuple[Place, ...]) -> tuple[float, str, Scal
 def _row(ranking: Ranking, place: Place, factor: float, axis: Scale, band: tuple[float, float] | None) -> str:
     kind, tag = _TAGS[place.relation] if place.estimate else ("none", "")
     equal = [index for index, other in enumerate(ranking.places, 1) if _standing(other) == _standing(place)]
-    if place.relation is None and len(equal) > 1:
-        tag = "best mean, shared"
+    if place.relation is None and 1 < len(equal) == len(ranking.places):
+        kind, tag = "same", "identical" if ranking.having(Relation.IDENTICAL) else "same mean"
     value = quantity(ranking, place.estimate) if place.estimate else "no value"
     if place.fails_more:
         kind, tag = f"{kind} late", f"{tag}; fails more often".removeprefix("; ")

@@ -5,10 +5,13 @@ from collections.abc import Iterable, Mapping
 from functools import cache, partial
 from typing import Any, get_args
 
+import numpy as np
+
 from mrpbench_core.api.metric import Better, Column, ColumnStage, Drawn, Metric, Question
 from mrpbench_core.engine.processes.call import in_worker
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.registry import Registry
 from mrpbench_core.referee.measuring import describe
@@ -22,9 +25,14 @@ _LOG = logging.getLogger(__name__)
 Columns = Mapping[str, Column]
 """Columns by full name, `<metric>.<column>`."""
 
+SHOWN_IF_ANY = ("execution.wall_contacts",)
+"""Columns that are worth a place only if a run has more than 0."""
 _OUTCOME = partial(Column, unit="", better="higher", answers="arrival", threshold=0.05)
 OUTCOME = (
-    _OUTCOME("succeeded", description="share of the runs that planned and arrived, of all that count"),
+    _OUTCOME(
+        "succeeded",
+        description="share of the runs that planned and arrived, or did tasks until the end, of all that count",
+    ),
     _OUTCOME(
         "planned",
         description="share of the runs whose planner found a plan that keeps its promises",
@@ -90,6 +98,12 @@ def primary_columns(known: Columns) -> list[Column]:
     """The columns that are shown by default: those of the planning, then those of the execution."""
     stages = get_args(ColumnStage)
     return sorted((column for column in known.values() if column.primary), key=lambda c: stages.index(c.stage))
+
+
+def shown_columns(known: Columns, values: Mapping[str, Float]) -> list[Column]:
+    """The primary columns, and those of `SHOWN_IF_ANY` of which a run has some."""
+    more = (known[name] for name in SHOWN_IF_ANY if name in known and np.any(values.get(name, 0.0) > 0))
+    return [*primary_columns(known), *more]
 
 
 def direction(column: Column) -> int:

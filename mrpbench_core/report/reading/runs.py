@@ -165,6 +165,8 @@ class _Reader:
                     if self._wanted is not None and prefix + key not in self._wanted:
                         continue
                     column = self._values[prefix + key] = array("d", [np.nan]) * len(self._run_id)
+                elif len(column) > len(self._run_id):  # a metric of an older version was called `timing`
+                    continue
                 column.append(value)
                 filled += 1
                 if kind is not bool:

@@ -24,6 +24,8 @@ from mrpbench_core.report.statistics.means import AT_ONCE, MANY, SEED, mean
 
 FLIPS = 9999
 """Number of random sign flips if there are too many to try all."""
+LEAST_PAIRS = next(count for count in range(1, 99) if 2.0 ** (1 - count) <= 1 - LEVEL)
+"""Number of pairs that differ below which no test is significant."""
 TIE = 1e-9
 """Relative difference up to which two values count as equal, because sums are rounded."""
 
@@ -52,7 +54,7 @@ class Difference:
     @property
     def can_be_significant(self) -> bool:
         """True if the test would be significant if all units that differ did so in the same direction."""
-        return bool(2.0 ** (1 - self.above - self.below) <= 1 - LEVEL)
+        return self.above + self.below >= LEAST_PAIRS
 
 
 def compare_rates(first: Float, second: Float) -> Difference | None:

@@ -1,9 +1,9 @@
 """Rates with Wilson intervals.
 
 E. B. Wilson, "Probable inference, the law of succession, and statistical inference", JASA 22, 1927. Where a scenario
-was run several times, its runs are no independent samples; the interval is then that of the effective sample size, runs
-divided by the design effect: C. Franco, R. Little, T. Louis, E. Slud, "Comparative study of confidence intervals for
-proportions in complex sample surveys", Journal of Survey Statistics and Methodology 7, 2019.
+was run several times, its runs are not independent samples; the interval is then that of the effective sample size,
+runs divided by the design effect: C. Franco, R. Little, T. Louis, E. Slud, "Comparative study of confidence intervals
+for proportions in complex sample surveys", Journal of Survey Statistics and Methodology 7, 2019.
 """
 
 import numpy as np

@@ -15,7 +15,7 @@ from mrpbench_core.report.reading.columns import heading
 from mrpbench_core.report.reading.runs import Runs
 from mrpbench_core.report.statistics.estimate import IntervalEstimate
 from mrpbench_core.report.tables.spans import spans
-from mrpbench_core.report.tables.table import Cell, Shown, Table, p_value
+from mrpbench_core.report.tables.table import Cell, Shown, Table, exact, p_value
 
 RATES = ("succeeded", "planned")
 MOST_BROKEN = 20
@@ -132,10 +132,16 @@ def means_table(
         rows=tuple(rows),
         keys=len(axes),
         note=(
-            f"Mean over {_unit(settings)} [95 % bootstrap interval]; n is given if some have no value."
+            f"Mean over {_unit(settings)}{_interval(rows)}; n is given if some have no value."
             " Groups may have values for different scenarios: compare groups in the next tables only."
         ),
     )
+
+
+def _interval(rows: Sequence[Sequence[Cell]]) -> str:
+    """Return how intervals of means are made, where there are some."""
+    shown = (cell.estimate for row in rows for cell in row if isinstance(cell, Shown))
+    return " [95 % bootstrap interval]" if any(estimate.has_interval for estimate in shown) else ""
 
 
 def common_table(
@@ -281,4 +287,4 @@ def _unit(settings: Sequence[Setting]) -> str:
 
 
 def _point(value: float, percent: bool) -> str:
-    return f"{value:.0f} %" if percent else f"{value:.4g}"
+    return f"{value:.0f} %" if percent else f"{exact(value):.4g}"

@@ -7,6 +7,8 @@ import attrs
 
 from mrpbench_core.report.statistics.estimate import IntervalEstimate
 
+ROUNDING = 1e-12
+"""SI units; no quantity of a run is measured so finely."""
 Cell = Any
 """None, text, a number or a `Shown`."""
 
@@ -22,7 +24,7 @@ class Shown:
 
     def __str__(self) -> str:
         found, factor = self.estimate, 100.0 if self.percent else 1.0
-        value, low, high = (number * factor for number in (found.value, found.low, found.high))
+        value, low, high = (exact(number) * factor for number in (found.value, found.low, found.high))
         places = 0 if self.percent else decimals(value, high - low if found.has_interval else math.nan)
         text = fixed(value, places) + (" %" if self.percent else "")
         if found.has_interval:
@@ -50,7 +52,7 @@ def text(cell: Cell) -> str:
     if cell is None:
         return "–"
     if isinstance(cell, float):
-        return "–" if math.isnan(cell) else f"{cell:.4g}"
+        return "–" if math.isnan(cell) else f"{exact(cell):.4g}"
     return str(cell)
 
 
@@ -62,11 +64,16 @@ def p_value(p: float) -> str:
 def decimals(value: float, width: float) -> int:
     """Number of decimals that show two digits of the interval's width and of the value, or four of a bare value."""
     if not width > 0:
-        return max(0, 3 - _magnitude(value))
+        return max(0, 3 - _magnitude(value)) if value else 0
     places = 1 - _magnitude(width)
     if value and 1 - _magnitude(value) > places:
         places += 1
     return min(7, max(0, places))
+
+
+def exact(number: float) -> float:
+    """Return the number, or 0 if it is so small that only the rounding of sums makes it differ from 0."""
+    return 0.0 if abs(number) < ROUNDING else number
 
 
 def fixed(number: float, places: int) -> str:

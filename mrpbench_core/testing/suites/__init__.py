@@ -3,15 +3,12 @@
 import importlib
 
 from mrpbench_core.api.component import Component
-from mrpbench_core.api.discrete import DiscreteSimulator
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_core.plugins.kinds import kind_of
-from mrpbench_core.plugins.provenance import kind_class
 from mrpbench_core.testing.suites.assigner import AssignerConformance
 from mrpbench_core.testing.suites.component import ComponentConformance
 from mrpbench_core.testing.suites.controller import ControllerConformance
 from mrpbench_core.testing.suites.crowd import CrowdConformance
-from mrpbench_core.testing.suites.discrete import DiscreteSimulatorConformance
 from mrpbench_core.testing.suites.dispatcher import DispatcherConformance
 from mrpbench_core.testing.suites.executor import ExecutorConformance
 from mrpbench_core.testing.suites.format import FormatConformance
@@ -62,10 +59,8 @@ def suite_for(component: Component) -> ComponentConformance:
 
 def suite_class(component: Component) -> type[ComponentConformance]:
     """The class of the suite for a component; that of all components if its kind has none."""
-    if isinstance(component, DiscreteSimulator):
-        return DiscreteSimulatorConformance
-    kind, named = kind_of(component.group), kind_class(type(component)).suite
-    if kind in SUITES or named is None:
+    kind, named = kind_of(component.group), type(component).suite
+    if named is None:
         return SUITES.get(kind, ComponentConformance)
     module, _, name = named.partition(":")
     try:

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.checking.assignment import check_choice
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.engine.stages.plan import LATE_S, cpu_s
+from mrpbench_core.engine.drive.plan import LATE_S, cpu_s
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.testing.drawing import build, grid

@@ -98,6 +98,18 @@ def path_lengths(
 ) -> NDArray[np.float64]:
     """f8[sources,targets], infinite where there is no path; edges i4[E,2], length f8[E] not below 0."""
 
+def bottleneck(cost: NDArray[np.float64]) -> float | None:
+    """The least cost such that all rows can have different columns that cost no more; None if there is none.
+
+    Augmenting paths: Derigs and Zimmermann, Computing 1978.
+
+    Args:
+        cost: f8[n,m] with n <= m, infinite where a pair is forbidden.
+
+    Raises:
+        ValueError: it has more rows than columns, or a cost is NaN or -inf.
+    """
+
 def cheapest_assignment(cost: NDArray[np.float64]) -> NDArray[np.int32] | None:
     """i4[n]: the column of each row, all different, with the least sum of costs; None if there is none.
 

@@ -109,6 +109,7 @@ class Pbs {
   void finish(const Node& node) {
     for (const auto& path : node.paths) result_.paths.emplace_back(path.begin(), path.end());
     result_.status = Status::solved;
+    result_.statistics.failed_robot = -1;
   }
 
   /// `node` with robot `after` planning after robot `before`; nothing if there is no such plan.
@@ -129,7 +130,10 @@ class Pbs {
       };
       const bool hit =
           std::ranges::any_of(made->conflicts, hits) || std::ranges::any_of(made->capacity_conflicts, hits);
-      if (hit && !plan(*made, robot)) return nullptr;
+      if (hit && !plan(*made, robot)) {
+        result_.statistics.failed_robot = robot;
+        return nullptr;
+      }
     }
     return made;
   }

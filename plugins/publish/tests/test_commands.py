@@ -41,7 +41,7 @@ def test_findings_give_exit_code_1(mrpbench, published, tmp_path):
         (["verify", "."], ".: is no file; a bundle is a zip file"),
         (["verify", "x.zip", "--seed", "1"], "--seed draws the runs to repeat (add --rerun SHARE)"),
         (["verify", "x.zip", "--rerun", "110%"], "--rerun 110%: expected `all`, `none` or a share such as 10%"),
-        (["publish", "none", "--out", "x.zip"], "none: is no results folder"),
+        (["publish", "none", "--out", "x.zip"], "none: is not a results folder"),
         (["publish", ".", "--out", "x.zip", "--recordings", "some"], "--recordings some: expected"),
         (["publish", ".", "--out", "x.zip", "--license", "my own"], "--license my own: expected an SPDX name"),
         (["publish", ".", "--out", "x.zip", "--date", "today"], "--date today: expected YYYY-MM-DD"),

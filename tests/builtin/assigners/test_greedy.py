@@ -8,12 +8,6 @@ from hypothesis import strategies as st
 from mrpbench_core.api.assigner import AssignmentError
 from mrpbench_core.builtin.assigners.greedy import Greedy
 from mrpbench_core.model.planning.assignment import AssignmentProblem
-from mrpbench_core.testing import AssignerConformance
-
-
-class TestGreedy(AssignerConformance):
-    def make(self):
-        return Greedy()
 
 
 @given(st.integers(1, 5), st.integers(1, 5), st.integers(0, 2**32 - 1))

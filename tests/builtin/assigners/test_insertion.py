@@ -13,11 +13,6 @@ from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.testing import AssignerConformance
 
 
-class TestInsertion(AssignerConformance):
-    def make(self):
-        return Insertion()
-
-
 class TestRegret(AssignerConformance):
     def make(self):
         return Insertion(regret=True)

@@ -9,11 +9,6 @@ from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.testing import AssignerConformance
 
 
-class TestTokenPassing(AssignerConformance):
-    def make(self):
-        return TokenPassing()
-
-
 class TestTaskSwaps(AssignerConformance):
     def make(self):
         return TokenPassing(task_swaps=True)

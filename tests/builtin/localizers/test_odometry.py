@@ -9,16 +9,10 @@ from mrpbench_core.model.common.poses import composed, wrapped
 from mrpbench_core.model.execution.observation import Odometry
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.worlds.world import Level, World
-from mrpbench_core.testing import LocalizerConformance
 from mrpbench_core.testing.fixtures.room import PERIOD, ROBOT, driven
 
 WORLD = World(name="empty", levels=(Level(name="L1"),))
 PLACES = np.array([[1.0, 2.0, 0.5], [3.0, 1.0, -2.0]])
-
-
-class TestOdometry(LocalizerConformance):
-    def make(self):
-        return DeadReckoning()
 
 
 def start():

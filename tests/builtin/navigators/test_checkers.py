@@ -126,7 +126,7 @@ def test_a_nav2_file_names_the_checkers(tmp_path):
         ("StoppedGoalChecker", "AxisGoalChecker", "'AxisGoalChecker' is not supported"),
         ("xy_goal_tolerance: 0.15", "xy_goal_tolerance: 0.0", "xy_goal_tolerance"),
         ("required_movement_angle", "required_movement_angel", "unknown parameter 'required_movement_angel'"),
-        ("controller_server", "planner_server", "has no controller_server"),
+        ("controller_server", "planner_server", "no parameters of the node 'controller_server'"),
     ],
 )
 def test_a_mistake_in_a_nav2_file_is_named_with_its_place(tmp_path, old, new, message):

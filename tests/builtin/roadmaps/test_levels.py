@@ -32,7 +32,9 @@ def tower(two_rooms):
 def test_a_raster_has_one_level_and_says_so(tower, make_fleet, builder):
     with pytest.raises(InputError, match="a raster has one level, and world 'two rooms' has 2") as refusal:
         builder.build(tower, make_fleet(0.12))
-    assert "roadmap: graph" in str(refusal.value)
+    assert ", L2 (use roadmap: graph, or load one level, world: {plugin: rmf, file: ..., level:" in str(refusal.value)
+    with pytest.raises(InputError, match=r"\(load one level") as refusal:
+        builder.build(attrs.evolve(tower, lanes=()), make_fleet(0.12))
 
 
 def test_a_graph_has_all_levels_and_no_crossing_between_them(tower, make_fleet):

@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from mrpbench_core.builtin.roadmaps.lanes import Lanes
+from mrpbench_core.builtin.roadmaps.mrp_bench import mrp_bench_raster
 from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.navigation import unique_edges
+from mrpbench_core.model.worlds.world import Lane, Level, Vertex, World
 
 
 @pytest.mark.parametrize(
@@ -49,3 +51,41 @@ def test_edges_through_walls_are_kept_and_counted(shared_data, make_fleet):
     world = Rmf(file=shared_data / "rmf/mrp_bench/office.building.yaml").load()
     roadmap = Lanes(compatible="mrp_bench").build(world, make_fleet(0.125))
     assert roadmap.notes == ("15 of the raster's edges on which a robot would touch something are kept.",)
+
+
+SQUARE = [(0, 0), (6, 0), (6, 6), (0, 6)]
+
+
+@pytest.mark.parametrize(
+    ("points", "lanes", "drawn"),
+    [
+        # Of two steps that are as near to the line, the second is taken: east first, or west first on the way back.
+        ([(0, 0), (3, 3)], [(0, 1)], ["###.", "#...", "....", "...#"]),
+        ([(3, 3), (0, 0)], [(0, 1)], ["#...", "...#", "...#", "..##"]),
+        # East, north, three times east, north and east; narrow cells open their left and lower neighbours.
+        ([(0, 0), (5, 2)], [(0, 1)], ["###...", ".....#", ".....#"]),
+        # A lane inside is widened to one side, and ends where its places are.
+        (
+            [(0, 0), (6, 6), (3, 3), (3, 6)],
+            [(2, 3)],
+            ["###.###", "##..###", "##..###", "###.###", "#######", "#######", "#######"],
+        ),
+        # Lanes on the lower and the left border look at the opposite border, which is closed, and are widened inwards.
+        (SQUARE, [(0, 1)], ["#######"] * 5 + ["#.....#", "......."]),
+        (SQUARE, [(0, 3)], [".######"] + ["..#####"] * 5 + [".######"]),
+        # The opposite border has a lane of its own: every other cell of it is widened, and of the lower border, too.
+        (SQUARE, [(0, 1), (2, 3)], [".......", "#.#.#.#", "#######", "#######", "#######", "#.#.#.#", "......."]),
+        (SQUARE, [(0, 3), (1, 2)], [".#####.", *["..###..", ".#####."] * 3]),
+    ],
+)
+def test_roads_are_walked_and_widened_as_in_the_original(points, lanes, drawn):
+    """Worked out by hand from the rules in the module's docstring; the top row of a drawing is the highest."""
+    world = World(
+        name="drawn",
+        levels=(Level(name="L1"),),
+        vertices=tuple(Vertex(name=str(number), x=x, y=y) for number, (x, y) in enumerate(points)),
+        lanes=tuple(Lane(start=start, end=end) for start, end in lanes),
+    )
+    found = mrp_bench_raster(world, 1.0)
+    assert ["".join(".#"[int(it)] for it in row) for row in found.blocked[::-1]] == drawn
+    assert found.origin == (0, 0)

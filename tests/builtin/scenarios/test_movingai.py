@@ -40,8 +40,8 @@ def test_blanks_separate_fields_too(tmp_path, corridor):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("", ":1: is no MovingAI scenario: the first line is not 'version 1'"),
-        ("type octile\n", ":1: is no MovingAI scenario: the first line is not 'version 1'"),
+        ("", ":1: is not a MovingAI scenario: the first line is not 'version 1'"),
+        ("type octile\n", ":1: is not a MovingAI scenario: the first line is not 'version 1'"),
         ("version 1\n", ": has 0 rows, too few for 1 robots"),
         ("version 1\n0\ttiny.map\t3\t2\t0\n", ":2: a row has 9 fields, this one 5"),
         ("version 1\n" + ROW.format("x", 0, 1, 1), ":2: map size, start and goal must be whole numbers"),
@@ -59,7 +59,7 @@ def test_a_mistake_is_located(tmp_path, corridor, text, message):
 
 
 def test_a_world_without_a_raster_is_refused(tmp_path, corridor):
-    with pytest.raises(InputError, match="world walls is no raster"):
+    with pytest.raises(InputError, match="world walls is not a raster"):
         draw(tmp_path, corridor, "version 1\n", world=World(name="walls", levels=(Level(name="L1"),)))
 
 

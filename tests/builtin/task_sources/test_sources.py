@@ -45,8 +45,8 @@ def test_the_times_of_a_trace_are_scaled_and_its_errands_depend_on_the_seed(tmp_
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("1\n\nsoon\n", r":3: 'soon' is no time in seconds from 0"),
-        ("-1\n", r":1: '-1' is no time"),
+        ("1\n\nsoon\n", r":3: 'soon' is not a time in seconds from 0"),
+        ("-1\n", r":1: '-1' is not a time"),
         ("5\n4 # early\n", r":2: 4 s comes after 5 s \(sort the times\)"),
         ("# none\n", r": has no times"),
     ],

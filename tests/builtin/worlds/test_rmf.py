@@ -98,6 +98,15 @@ def test_vertex_parameters_are_kept(tmp_path):
     assert load(tmp_path).vertices[0].parameters == {"is_charger": True}
 
 
+@pytest.mark.parametrize("name", ["1.10", "007", "1E3", "on", "2024-10-05", "0x1F", "1_000", "True", "10:30", "-0"])
+def test_names_keep_the_spelling_of_the_file(tmp_path, name):
+    text = BUILDING.replace("L1:", f"{name}:").replace("north", name).replace("gate", name).replace("hut", name)
+    world = load(tmp_path, text.replace("mutex: [1, m]", f"mutex: [1, {name}]"), level=name)
+    assert (world.name, world.levels[0].name, world.levels[0].doors[0].name) == (name,) * 3
+    assert {vertex.name for vertex in world.vertices} == {name, "12", ""}
+    assert {lane.mutex for lane in world.lanes} == {name, ""}
+
+
 def test_a_lane_names_the_door_it_passes(tmp_path):
     world = load(tmp_path, BUILDING.replace("[3, 1, {", "[3, 5, {"))
     assert world.levels[0].doors[0].name == "gate"
@@ -145,6 +154,12 @@ def test_one_level_can_be_chosen(tmp_path):
     assert {vertex.level for vertex in world.vertices} == {0}
 
 
+def test_a_lane_from_a_vertex_to_itself_is_left_out(tmp_path):
+    whole, world = (load(tmp_path, text) for text in (BUILDING, BUILDING.replace("- [3, 1, {", "- [3, 3, {")))
+    assert len(world.lanes) == len(whole.lanes) - 1
+    assert set(world.notes) - set(whole.notes) == {"lane from a vertex to itself is left out."}
+
+
 def test_floors_and_holes_are_kept(tmp_path):
     text = BUILDING + "    floors: [{vertices: [0, 1, 2], parameters: {}}]\n    holes: [{vertices: [0, 2, 3]}]\n"
     (level,) = load(tmp_path, text).levels
@@ -179,7 +194,6 @@ def test_floors_and_holes_are_kept(tmp_path):
         ),
         ("name: hut", "coordinate_system: web_mercator", "1:20: coordinate_system 'web_mercator' is not supported"),
         ("name: hut", "coordinate_system: polar", "'polar' is unknown"),
-        ("[1, hinged]", "[1, hinged], motion_axis: [1, top]", "'motion_axis' should be start or end, not 'top'"),
         ("name: hut", "reference_level_name: L7", "hut.building.yaml:1:23: no level 'L7' (levels: L1)"),
         ("levels:", "floors:", "hut.building.yaml:1:1: has no levels"),
     ],

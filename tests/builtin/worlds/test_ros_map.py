@@ -56,7 +56,10 @@ def test_unknown_cells_can_be_free(load):
 
 
 def test_negated_images_are_light_where_occupied(load):
-    assert blocked(load([[0, 254, 120]], YAML.replace("negate: 0", "negate: 1"))) == [[False, True, True]]
+    for word in ("1", "true", "yes", "On"):
+        assert blocked(load([[0, 254, 120]], YAML.replace("negate: 0", f"negate: {word}"))) == [[False, True, True]]
+    for word in ("0", "False", "no", "off"):
+        assert blocked(load([[0, 254, 120]], YAML.replace("negate: 0", f"negate: {word}"))) == [[True, False, True]]
 
 
 def test_thresholds_are_the_files(load):
@@ -73,6 +76,23 @@ def test_the_mode_scale_blocks_only_certainly_occupied_cells(load):
     assert blocked(load(values, YAML + "mode: scale\n")) == [[False, False, True]]
 
 
+def test_a_grey_value_at_a_threshold_reaches_it(load):
+    values = [[255 - round(255 * share) for share in (0, 0.2, 0.4, 0.6, 0.8, 1)]]
+    for low, high, free, occupied in ((0.2, 0.8, 2, 2), (0.4, 0.6, 3, 3), (0, 1, 1, 1), (0.4, 0.4, 2, 4)):
+        text = YAML.replace("0.25", str(low)).replace("0.65", str(high))
+        walls = [[False] * (6 - occupied) + [True] * occupied]
+        assert blocked(load(values, text)) == [[False] * free + [True] * (6 - free)]
+        assert blocked(load(values, text, unknown="free")) == walls
+        assert blocked(load(values, text + "mode: scale\n")) == walls
+
+
+def test_the_mode_is_read_in_any_case(load):
+    for mode in ("Trinary", "SCALE", "Raw"):
+        assert blocked(load([[0, 100, 255]], f"{YAML}mode: {mode}\n")) == blocked(
+            load([[0, 100, 255]], f"{YAML}mode: {mode.lower()}\n")
+        )
+
+
 def test_the_mode_raw_takes_percent(load):
     text = YAML + "mode: raw\n"
     assert blocked(load([[0, 30, 64, 65, 100, 101, 255]], text)) == [[False, False, False, True, True, True, True]]
@@ -83,6 +103,36 @@ def test_colours_are_averaged_and_transparent_pixels_unknown(load):
     values = [[(0, 0, 0, 255), (255, 255, 255, 255), (255, 255, 255, 0), (255, 240, 225, 255)]]
     assert blocked(load(values, mode="RGBA")) == [[True, False, True, False]]
     assert blocked(load(values, mode="RGBA", unknown="free")) == [[True, False, False, False]]
+
+
+@pytest.mark.parametrize("mode", ["trinary", "scale", "raw"])
+def test_pixels_that_are_not_opaque_are_unknown_in_every_mode(load, mode):
+    grey = 0 if mode == "raw" else 255
+    dark = 100 if mode == "raw" else 0
+    values = [[(value, value, value, alpha) for value in (grey, dark) for alpha in (255, 254, 0)]]
+    text = f"{YAML}mode: {mode}\n"
+    assert blocked(load(values, text, mode="RGBA")) == [[False, True, True, True, True, True]]
+    assert blocked(load(values, text, mode="RGBA", unknown="free")) == [[False, False, False, True, False, False]]
+
+
+def test_a_map_without_walls_or_without_free_cells_is_noted(load):
+    assert load([[0, 254]]).notes == ()
+    walls, free = "no cell is occupied, so the map has no walls", "no cell is free"
+    assert [note.split(" (")[0] for note in load([[254, 254]]).notes] == [walls]
+    assert [note.split(" (")[0] for note in load([[254, 128]]).notes] == [walls]
+    assert [note.split(" (")[0] for note in load([[0, 128]]).notes] == [free]
+    assert [note.split(" (")[0] for note in load([[128, 128]]).notes] == [walls, free]
+    assert [note.split(" (")[0] for note in load([[128, 128]], unknown="free").notes] == [walls]
+    dark = YAML.replace("0.65", "0.99") + "mode: scale\n"
+    assert [note.split(" (")[0] for note in load([[20, 254]], dark).notes] == [walls]
+
+
+@pytest.mark.parametrize(("name", "lightest"), [("m01", 0), ("m01t", 254)])
+def test_thresholds_at_both_ends_keep_walls_and_free_cells(shared_data, name, lightest):
+    file = shared_data / f"cases/01-scale-thresholds-at-the-ends/{name}.yaml"
+    world = RosMap(file=file).load()
+    with Image.open(file.with_name("b255.pgm")) as image:
+        assert blocked(world) == (np.asarray(image) <= lightest).tolist()
 
 
 CORNER = [[254, 254, 0], [254, 254, 254]]
@@ -184,7 +234,7 @@ def test_a_mistake_is_named_with_its_line(load, old, new, message):
 
 
 def test_an_unknown_key_is_noted(load):
-    assert load([[0]], YAML + "colour: 1\n").notes == ("key 'colour' is not known and has no effect.",)
+    assert load([[0, 254]], YAML + "colour: 1\n").notes == ("key 'colour' is not known and has no effect.",)
 
 
 def test_without_pillow_the_error_names_the_package_to_install(load, monkeypatch, tmp_path):

@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mrpbench_core.cli.output.table import NARROW, _fitted, print_table
+from mrpbench_core.cli.output.table import NARROW, _fitted, print_table, print_wide
+from mrpbench_core.report.tables.table import Table
 
 COLUMNS = ["kind", "what_it.is"]
 ROWS = [["planner", "one two three four five six seven eight nine ten"], ["7", None]]
@@ -44,6 +45,23 @@ def test_on_a_terminal_cells_are_folded_between_words(terminal, capsys, width):
     words = " ".join(lines).split()
     assert [word for word in words if word in ROWS[0][1].split()] == ROWS[0][1].split()
     assert "what_it.is" not in words
+
+
+def test_a_table_that_is_too_wide_is_continued_with_its_first_columns(terminal, capsys):
+    headings, row = ("planner", "status", "runs"), ("cbs", "w" * 14, "x" * 14)
+    table = Table(key="a", title="Runs", headings=headings, rows=(row,), keys=1, note="Each is counted once.")
+    terminal(30)
+    print_wide(table)
+    lines = [line for line in capsys.readouterr().out.splitlines() if line and set(line) != {"─"}]
+    assert [line.split() for line in lines] == [
+        ["Runs"],
+        ["planner", "status"],
+        ["cbs", "w" * 14],
+        ["Runs", "(continued)"],
+        ["planner", "runs"],
+        ["cbs", "x" * 14],
+        ["Each", "is", "counted", "once."],
+    ]
 
 
 @given(st.lists(st.integers(1, 60), min_size=1, max_size=8), st.integers(10, 120))

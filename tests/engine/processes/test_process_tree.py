@@ -127,6 +127,9 @@ AT_IMPORT = {
 }
 
 
+pytestmark = pytest.mark.usefixtures("kept_workers")
+
+
 @pytest.fixture
 def rogue(study, tmp_path):
     """Return a function: the records of runs that each do one thing, by what they do."""

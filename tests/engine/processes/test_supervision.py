@@ -1,6 +1,7 @@
 """Whatever a plugin does, its run has a definite status and its neighbours go on."""
 
 import os
+import re
 import socket
 from pathlib import Path
 
@@ -15,6 +16,8 @@ from mrpbench_core.engine.processes.supervisor import SERVERS
 from mrpbench_core.engine.study.progress import StudyProgress
 from mrpbench_core.files.errors import InputErrors
 from mrpbench_core.model.runs.status import RunStatus
+
+pytestmark = pytest.mark.usefixtures("kept_workers")
 
 
 def outcomes(study, does, **options):
@@ -43,6 +46,8 @@ def test_neighbours_of_misbehaving_plugins_go_on(study):
     assert errors["exit"]["message"] == "the worker process ended with exit code 7"
     assert errors["segfault"]["message"] == "the worker process was ended by SIGSEGV"
     assert errors["raise"]["message"].startswith("ValueError: no way (odd.py:")
+    for does in ("eat", "eat_at_once"):
+        assert re.search(r"held \d+ MiB.*; the option limits.memory allows 500 MiB", errors[does]["message"])
     assert "SystemExit: farewell" in errors["system_exit"]["message"]
     logs = {key: Path("out/logs", f"{record['run_id']}.txt") for key, record in records.items()}
     assert "Traceback" in logs["raise"].read_text()

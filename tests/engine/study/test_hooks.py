@@ -67,7 +67,6 @@ def test_a_plugin_observes_a_whole_study_in_one_process_and_cannot_write_into_re
     ("does", "said"),
     [
         ("os._exit(3)", "its process ended with exit code 3"),
-        ("ctypes.string_at(0)", "its process ended by signal 11"),
         ("os.closerange(3, 100)", "its process ended"),
         ("[os.write(fd, b'junk' * 99) for fd in range(3, 9) if os.path.exists(f'/proc/self/fd/{fd}')]", "it wrote to"),
     ],
@@ -113,7 +112,6 @@ STAYS = """
 @pytest.mark.parametrize(
     "code",
     [
-        "import os\nos._exit(3)",
         "import ctypes\nctypes.string_at(0)",
         "import os\nfrom mrpbench_core.api import hookimpl\n@hookimpl\ndef mrpbench_check(): os._exit(0)",
     ],

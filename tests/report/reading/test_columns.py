@@ -1,6 +1,9 @@
 """Columns of a report: invocations declare them, installed metrics complete them."""
 
-from mrpbench_core.report.reading.columns import describe_columns, heading, primary_columns
+import numpy as np
+
+from mrpbench_core.api.metric import Column
+from mrpbench_core.report.reading.columns import describe_columns, heading, primary_columns, shown_columns
 
 OLD = {"unit": "s", "better": "lower", "description": "how long", "source": ""}
 """A column as invocations of version 0.1 declare it."""
@@ -49,3 +52,11 @@ def test_thresholds_of_an_older_version_are_those_of_the_installed_metric():
     known = describe_columns({"execution.duration_s": OLD, "execution.time_blocked_s": OLD | {"threshold": None}})
     assert (known["execution.duration_s"].threshold, known["execution.duration_s"].answers) == (1.0, "duration")
     assert known["execution.time_blocked_s"].threshold is None
+
+
+def test_contacts_with_walls_are_shown_if_there_are_any():
+    known = {"execution.wall_contacts": Column("execution.wall_contacts", "", "lower", "touches")}
+    for values, shown in (([0.0, np.nan], []), ([0.0, 2.0], ["execution.wall_contacts"])):
+        columns = shown_columns(known, {"execution.wall_contacts": np.array(values)})
+        assert [column.name for column in columns] == shown
+    assert shown_columns(known, {}) == []

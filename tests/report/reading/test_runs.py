@@ -29,6 +29,12 @@ def test_null_is_not_a_number(results, record):
     assert runs.values["planning.cost"][1] == 3.0
 
 
+def test_records_of_a_metric_that_is_called_timing_are_read(results, record):
+    metrics = {"planning.cost": 3.0, "timing.planning_s": 7.0}
+    runs = read_runs([results([record(seed=seed, metrics=metrics) for seed in range(3)])])
+    assert {len(values) for values in runs.values.values()} == {3}
+
+
 def test_only_the_requested_columns_are_kept(results, record):
     runs = read_runs([results([record(cost=1.0)])], ["planning.cost"])
     assert set(runs.values) == {"succeeded", "planned", "planning.cost"}

@@ -24,7 +24,7 @@ ROUND_CURVE = (AnytimePoint(seconds=0.1, cost=2), AnytimePoint(seconds=0.2, cost
 
 @attrs.frozen(kw_only=True)
 class Optimal(Planner):
-    promises: ClassVar[frozenset[Promise]] = frozenset(Promise) - {Promise.BOUNDED}
+    promises: ClassVar[frozenset[Promise]] = frozenset(Promise) - {Promise.BOUNDED, Promise.ROBUST}
 
     answers: tuple[PlanResult, ...] = ()
     number: count = attrs.field(factory=count, eq=False, repr=False)
@@ -35,9 +35,8 @@ class Optimal(Planner):
 
 @attrs.frozen(kw_only=True)
 class Bounded(Optimal):
-    promises: ClassVar[frozenset[Promise]] = frozenset(Promise) - {Promise.OPTIMAL}
-
-    w: float = 1.5
+    promises: ClassVar[frozenset[Promise]] = frozenset(Promise) - {Promise.OPTIMAL, Promise.ROBUST}
+    suboptimality: ClassVar[float] = 1.5
 
 
 @attrs.frozen(kw_only=True)

@@ -105,4 +105,4 @@ def test_a_dispatcher_whose_copies_share_what_changes():
         self.calls = [0]
 
     found = failed_checks(suite_for(session(update=update, adopt=adopt, copied=copy.copy)))
-    assert "a copy returns other orders.released" in found["copies go on as their sessions do"]
+    assert "a copy returns other orders than the session" in found["copies go on as their sessions do"]

@@ -48,8 +48,9 @@ def _motion(parameters: dict[str, Any], node: Node, notes: Notes) -> dict[str, A
     if kind not in _MOTION:
         notes.add(f"door type {kind!r} is not known and is treated as sliding")
     axis = parameters.get("motion_axis", "start")
-    if axis not in ("start", "end"):
-        raise node.error(f"door parameter 'motion_axis' should be start or end, not {axis!r}")
+    if axis not in ("start", "end"):  # RMF compares with start only
+        notes.add(f"door motion_axis {axis!r} is neither start nor end and is treated as end")
+        axis = "end"
     ratio = parameters.get("right_left_ratio", 1.0)
     if ratio <= 0:
         raise node.error(f"door parameter 'right_left_ratio' should be positive, not {ratio:g}")

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterable, Mapping, Sequence
 
+import attrs
 import numpy as np
 
 from mrpbench_core.builtin.worlds.building.coordinates import Frame
@@ -13,6 +14,8 @@ from mrpbench_core.model.worlds.world import Door, Lift
 
 TOUCHING = 1e-6
 """metres: cabins that overlap by less than this only touch."""
+SAME = 0.1
+"""metres: cabins and doors that are nearer than this are the same, drawn twice."""
 
 
 def read_lifts(building: Node, frames: Mapping[str, Frame], notes: Notes) -> tuple[Lift, ...]:
@@ -24,15 +27,43 @@ def read_lifts(building: Node, frames: Mapping[str, Frame], notes: Notes) -> tup
         lift = _lift(name, node, frames, building.fields()["levels"], notes)
         if lift is None:
             continue
-        for other in lifts:
-            if _share_shaft(lift, other, heights):
+        for other in [other for other in lifts if _share_shaft(lift, other, heights)]:
+            if not _is_same(lift, other):
                 raise node.error(
                     f"lifts {other.name!r} and {name!r} are in the same shaft",
                     "move one of them, or let one lift serve the levels of both",
                     key=True,
                 )
+            notes.add(f"lifts {other.name!r} and {name!r} have the same cabin and doors and are one")
+            lifts.remove(other)
+            lift = _merged(lift, other)
         lifts.append(lift)
     return tuple(lifts)
+
+
+def _is_same(lift: Lift, other: Lift) -> bool:
+    """Tell whether two lifts are one that is drawn twice: the same cabin and the same doors."""
+    points, others = (
+        {"": one.corners, **{door.name: np.array([door.start, door.end]) for door in one.doors}}
+        for one in (lift, other)
+    )
+    return points.keys() == others.keys() and all(
+        np.allclose(points[name], others[name], rtol=0, atol=SAME) for name in points
+    )
+
+
+def _merged(lift: Lift, other: Lift) -> Lift:
+    """Return one lift that serves the levels of both, by the name of that which serves more."""
+    first, second = (lift, other) if len(lift.levels) > len(other.levels) else (other, lift)
+    opens = {door.name: levels for door, levels in zip(second.doors, second.door_levels, strict=True)}
+    return attrs.evolve(
+        first,
+        levels=tuple(dict.fromkeys((*first.levels, *second.levels))),
+        door_levels=tuple(
+            tuple(dict.fromkeys((*levels, *opens[door.name])))
+            for door, levels in zip(first.doors, first.door_levels, strict=True)
+        ),
+    )
 
 
 def _heights(building: Node, levels: Iterable[str]) -> list[float]:
@@ -66,7 +97,10 @@ def _lift(name: str, node: Node, frames: Mapping[str, Frame], levels: Node, note
     for key in ("reference_floor_name", "initial_floor_name", "lowest_floor", "highest_floor"):
         if key in fields and fields[key].text():
             _known_level(fields[key], fields[key].text(), levels)
-    stops = _stops(name, node, levels)
+    stops = _stops(name, node, levels, notes)
+    if len(stops) < 2:
+        notes.add(f"lift {name!r} serves {counted(len(stops), 'level')} and is left out: a lift needs at least two")
+        return None
     served = [level for level in stops if level in number]
     if not served:
         notes.add(f"lift {name!r} stops at no level that is loaded and is left out")
@@ -94,26 +128,21 @@ def _lift(name: str, node: Node, frames: Mapping[str, Frame], levels: Node, note
     )
 
 
-def _stops(name: str, node: Node, levels: Node) -> dict[str, list[str]]:
+def _stops(name: str, node: Node, levels: Node, notes: Notes) -> dict[str, list[str]]:
     """Return the doors that open on each level that the lift serves."""
     fields = node.fields()
     doors = {} if "doors" not in fields else fields["doors"].fields()
     stops = {}
     for level, names in ({} if "level_doors" not in fields else fields["level_doors"].fields()).items():
         _known_level(names, level, levels, key=True)
-        stops[level] = [door.text() for door in names.items()]
-        if not stops[level]:
-            hint = f"doors: {', '.join(doors)}" if doors else "add a door to the lift"
-            raise names.error(f"lift {name!r} has no door on level {level!r}", hint, key=True)
-        for door in stops[level]:
+        opening = [door.text() for door in names.items()]
+        for door in opening:
             if door not in doors:
                 raise names.error(f"lift {name!r} opens the door {door!r} on level {level!r}, which it does not have")
-    if len(stops) < 2:
-        raise node.error(
-            f"lift {name!r} serves {counted(len(stops), 'level')}, but a lift needs at least two",
-            "name the levels and their doors under level_doors",
-            key=True,
-        )
+        if opening:
+            stops[level] = opening
+        else:
+            notes.add(f"lift {name!r} has no door on level {level!r} and does not stop there")
     return stops
 
 

@@ -20,16 +20,16 @@ class Node:
     steps: Steps = ()
 
     def fields(self) -> "dict[str, Node]":
-        """Return the values of a mapping; an absent one has none."""
-        if self.value is None:
+        """Return the values of a mapping; none if it is absent or empty, which the editor writes as `{}` or `[]`."""
+        if self.value in (None, []):
             return {}
         if not isinstance(self.value, dict):
             raise self.error(f"should be a mapping, not {_kind(self.value)}")
         return {key: Node(self.document, value, (*self.steps, key)) for key, value in self.value.items()}
 
     def items(self, least: int = 0) -> "list[Node]":
-        """Return the values of a sequence, which has at least `least`; an absent one has none."""
-        value = [] if self.value is None else self.value
+        """Return the values of a sequence, at least `least`; none if it is absent or empty, as `{}` or `[]`."""
+        value = [] if self.value in (None, {}) else self.value
         if not isinstance(value, list):
             raise self.error(f"should be a sequence, not {_kind(value)}")
         if len(value) < least:
@@ -54,14 +54,10 @@ class Node:
         return self.value
 
     def text(self) -> str:
-        """Return a text. The editor writes names that look like numbers without quotes."""
-        if self.value is None:
-            return ""
-        if isinstance(self.value, bool):
-            return str(self.value).lower()
-        if not isinstance(self.value, str | int | float):
+        """Return a text; a number, which the editor writes without quotes too, as the file spells it."""
+        if isinstance(self.value, dict | list):
             raise self.error(f"should be text, not {_kind(self.value)}")
-        return str(self.value)
+        return self.document.text(self.steps) or ""
 
     def index(self, count: int, what: str) -> int:
         """Return the index of a vertex, which a `what` (a lane, a wall) names, on a level with `count` vertices."""

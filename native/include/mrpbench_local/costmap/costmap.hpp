@@ -60,10 +60,13 @@ class Costmap {
   const CostmapOptions& options() const { return options_; }
   double inscribed() const { return inscribed_; }
   std::uint8_t at(Cell c) const { return cost_[frame_.index(c)]; }
-  /// Tell whether the robot's centre may be at a point, whose cell is `c`. Nav2 forbids cells of the cost `kInscribed`.
-  /// Some of them are farther than the inscribed radius from the points that beams hit: these are free here. And a
-  /// robot that was closer at the last update may drive where it comes no closer, so that it can leave.
-  bool is_free(Cell c, Point p) const { return at(c) < kInscribed || (at(c) == kInscribed && keeps_room(p)); }
+  /// Tell whether the robot's centre may be at a point, whose cell is `c`: where it is farther than the inscribed
+  /// radius from the points that beams hit. Nav2 forbids cells of the cost `kInscribed`, by the centres of cells, which
+  /// are off by up to a cell's diagonal from these points and the robot. A robot that was closer at the last update may
+  /// drive where it comes no closer, so that it can leave.
+  bool is_free(Cell c, Point p) const { return is_clear(c) || (at(c) <= kInscribed && keeps_room(p)); }
+  /// Tell whether what is lethal is so far from a cell that the robot's centre may be anywhere in it.
+  bool is_clear(Cell c) const { return at(c) < close_; }
   const std::vector<std::uint8_t>& costs() const { return cost_; }
   /// Begin to load the costs near the robot into the cache.
   void fetch() const {
@@ -78,7 +81,7 @@ class Costmap {
   void clear_beams(Cell start);
   void mark_hits();
   void clear_footprint(Pose pose);
-  void mark(Cell c, Point p);
+  void mark(Cell c, double range, Point p);
   template <class Visit>
   bool each_nearby(Point p, Visit&& visit) const;
   /// Tell whether a point is at least as far from what beams hit as the robot was at the last update.
@@ -94,14 +97,18 @@ class Costmap {
   Point centre_;
   bool known_ = false;
   std::vector<std::uint8_t> marks_, cost_;
-  /// Where in a marked cell beams ended on average since it was marked, in cells from its lower left corner.
+  /// Where in a marked cell the nearest beam of the last scan that hit it ended, in cells from its lower left corner.
+  /// The mean of all beams would lie inside of corners and thin pillars, of which two sides are seen.
   struct Hit {
-    float x = 0.5f, y = 0.5f;
-    std::uint32_t beams = 0;
+    float x = 0.5f, y = 0.5f, range = 0;
+    std::uint32_t scan = 0;
   };
   std::vector<Hit> hits_;
+  std::uint32_t scans_ = 0;
   /// Metres that the robot keeps from what beams hit.
   double room_ = 0;
+  /// The least cost of a cell in which the robot's centre may be too close to what is lethal.
+  std::uint8_t close_ = kInscribed;
   struct {
     Pose pose;
     Sensor sensor;

@@ -1,6 +1,7 @@
 #include "mrpbench_local/costmap/costmap.hpp"
 
 #include <algorithm>
+#include <numbers>
 #include <stdexcept>
 
 #include "local/next_byte.hpp"
@@ -67,6 +68,10 @@ Costmap::Costmap(CostmapOptions options, std::shared_ptr<const StaticMap> walls)
   cost_ = marks_;
   hits_.resize(frame_.size());
   room_ = inscribed_;
+  // The centres of a cell and of a lethal one are a diagonal farther apart at most than points in them.
+  const double apart = inscribed_ + std::numbers::sqrt2 * options_.resolution;
+  const bool reaches = options_.inflation_radius >= apart + options_.resolution;
+  if (options_.inflation_layer) close_ = reaches ? inflated_cost(apart, inscribed_, options_.cost_scaling_factor) : 0;
   draw_stamp();
 }
 
@@ -202,22 +207,22 @@ void Costmap::mark_hits() {
     its.lengths[i] = range >= options_.obstacle_min_range && range < options_.obstacle_max_range ? range : -1;
   }
   its.beams.end_cells(frame_, its.lengths, its.ends);
+  ++scans_;
   for (std::size_t i = 0; i < its.ends.size(); ++i) {
     const Cell& soon = its.ends[std::min(i + 8, its.ends.size() - 1)];
     if (frame_.holds(soon)) __builtin_prefetch(&hits_[frame_.index(soon)]);
-    if (its.lengths[i] >= 0 && frame_.holds(its.ends[i])) mark(its.ends[i], its.beams.end(i, its.lengths[i]));
+    if (its.lengths[i] >= 0 && frame_.holds(its.ends[i]))
+      mark(its.ends[i], its.lengths[i], its.beams.end(i, its.lengths[i]));
   }
 }
 
-void Costmap::mark(Cell c, Point p) {
+void Costmap::mark(Cell c, double range, Point p) {
   const std::size_t i = frame_.index(c);
   Hit& hit = hits_[i];
-  if (marks_[i] != kLethal) hit = {0, 0, 0};
+  if (marks_[i] == kLethal && hit.scan == scans_ && hit.range <= range) return;
   marks_[i] = kLethal;
   const Point inside = (p - frame_.centre(c)) * (1 / frame_.resolution) + Point{0.5, 0.5};
-  const float share = 1.0f / static_cast<float>(++hit.beams);
-  hit.x += (static_cast<float>(inside.x) - hit.x) * share;
-  hit.y += (static_cast<float>(inside.y) - hit.y) * share;
+  hit = {static_cast<float>(inside.x), static_cast<float>(inside.y), static_cast<float>(range), scans_};
 }
 
 void Costmap::clear_footprint(Pose pose) {

@@ -3,9 +3,9 @@
 #include <cstring>
 
 #include "local/next_byte.hpp"
+#include "mrpbench_common/wide.hpp"
 #include "mrpbench_local/costmap/costmap.hpp"
 #include "mrpbench_local/costmap/update_buffers.hpp"
-#include "mrpbench_local/wide.hpp"
 
 namespace mrpbench::local {
 

@@ -73,7 +73,7 @@ struct Centre {
     const Costmap& costmap = *scene.costmap;
     for (std::size_t i = 0; i < raw.size(); ++i) {
       const Cell c{cells.x[i], cells.y[i]};
-      raw[i] = cells.inside && costmap.at(c) < kInscribed ? costmap.at(c) : at(costmap, c, all.end(i));
+      raw[i] = cells.inside && costmap.is_clear(c) ? costmap.at(c) : at(costmap, c, all.end(i));
     }
   }
 

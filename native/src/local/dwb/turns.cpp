@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-#include "mrpbench_local/wide.hpp"
+#include "mrpbench_common/wide.hpp"
 
 namespace mrpbench::local {
 

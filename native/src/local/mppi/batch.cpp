@@ -4,7 +4,7 @@
 #include <limits>
 #include <utility>
 
-#include "mrpbench_local/wide.hpp"
+#include "mrpbench_common/wide.hpp"
 
 namespace mrpbench::local::mppi {
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mrpbench_common/wide.hpp"
 #include "mrpbench_local/mppi/critic.hpp"
-#include "mrpbench_local/wide.hpp"
 
 namespace mrpbench::local::mppi {
 

@@ -4,10 +4,10 @@
 #include <cstdint>
 
 #include "local/next_byte.hpp"
+#include "mrpbench_common/wide.hpp"
 #include "mrpbench_local/costmap/collision.hpp"
 #include "mrpbench_local/costmap/footprint.hpp"
 #include "mrpbench_local/mppi/critic.hpp"
-#include "mrpbench_local/wide.hpp"
 
 namespace mrpbench::local::mppi {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "mrpbench_common/wide.hpp"
 #include "mrpbench_local/mppi/critic.hpp"
-#include "mrpbench_local/wide.hpp"
 
 namespace mrpbench::local::mppi {
 

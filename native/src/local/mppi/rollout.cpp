@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "mrpbench_local/wide.hpp"
+#include "mrpbench_common/wide.hpp"
 
 namespace mrpbench::local::mppi {
 

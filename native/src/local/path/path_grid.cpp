@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "mrpbench_local/wide.hpp"
+#include "mrpbench_common/wide.hpp"
 
 namespace mrpbench::local {
 

@@ -1,15 +1,16 @@
 """Optimal assignment in polynomial time, O(n^2 m) for n robots and m >= n tasks.
 
 Sum: shortest augmenting paths (Jonker and Volgenant, "A shortest augmenting path algorithm for dense and sparse linear
-assignment problems", Computing 1987). Bottleneck: the least threshold that still admits a full matching (Gross, "The
-bottleneck assignment problem", RAND P-1630, 1959), found by bisection, and the least sum below it.
+assignment problems", Computing 1987). Bottleneck: the least threshold that admits a full matching, by augmenting paths
+too (Derigs and Zimmermann, "An augmenting path method for solving linear bottleneck assignment problems", Computing
+1978), and the least sum below it.
 """
 
 from typing import ClassVar, Literal
 
 import attrs
 import numpy as np
-from mrpbench_native.mapf import cheapest_assignment
+from mrpbench_native.mapf import bottleneck, cheapest_assignment
 
 from mrpbench_core.api import Assigner, AssignmentError, option
 from mrpbench_core.model.common.arrays import Float, Int32
@@ -44,24 +45,9 @@ class Hungarian(Assigner):
 
     def _columns(self, costs: Float) -> Int32:
         """The column of each row."""
+        if self.objective == "bottleneck" and (threshold := bottleneck(costs)) is not None:
+            costs = np.where(costs <= threshold, costs, np.inf)
         columns = cheapest_assignment(costs)
-        if columns is not None and self.objective == "bottleneck":
-            columns = cheapest_assignment(np.where(costs <= _threshold(costs), costs, np.inf))
         if columns is None:
             raise AssignmentError("no assignment gives every robot, or every task, a pair that is not forbidden")
         return columns
-
-
-def _threshold(costs: Float) -> float:
-    """The least cost such that all rows can have pairs that cost no more."""
-    if not len(costs):
-        return 0.0
-    levels = np.unique(costs[np.isfinite(costs)])
-    low, high = int(np.searchsorted(levels, costs.min(axis=1).max())), len(levels) - 1
-    while low < high:
-        middle = (low + high) // 2
-        if cheapest_assignment(np.where(costs <= levels[middle], 0.0, np.inf)) is None:
-            low = middle + 1
-        else:
-            high = middle
-    return float(levels[low])

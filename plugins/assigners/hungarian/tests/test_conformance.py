@@ -5,11 +5,6 @@ from mrpbench_assigners_hungarian import Hungarian
 from mrpbench_core.testing.suites.assigner import AssignerConformance
 
 
-class TestSum(AssignerConformance):
-    def make(self):
-        return Hungarian()
-
-
 class TestBottleneck(AssignerConformance):
     def make(self):
         return Hungarian(objective="bottleneck")

@@ -16,7 +16,7 @@ from mrpbench_controllers_dwb.critic import Critic
 from mrpbench_controllers_dwb.nav2_critics import DEFAULT, NATIVE, OF_CONTROLLER, RotateToGoal
 from mrpbench_core.api import option
 from mrpbench_core.api.described import described
-from mrpbench_core.api.nav2 import as_parameter
+from mrpbench_core.api.nav2 import as_parameter, read_option
 from mrpbench_core.files.nav2 import Nav2Block
 from mrpbench_core.model.common.fleet import RobotModel
 
@@ -37,13 +37,6 @@ class Dwb(LocalController):
 
     native: ClassVar[str] = "dwb"
     nav2_plugin: ClassVar[str] = "dwb_core::DWBLocalPlanner"
-    ignored: ClassVar[tuple[str, ...]] = (
-        *("debug_trajectory_details", "transform_tolerance", "stateful", "prune_plan", "vy_samples", "acc_lim_y"),
-        *("decel_lim_y", "sim_period", "default_critic_namespaces", "goal_checker_name", "use_dwa"),
-        *("limit_vel_cmd_in_traj", "publish_cost_grid_pc", "publish_evaluation", "publish_global_plan"),
-        *("publish_local_plan", "publish_trajectories", "publish_transformed_plan", "publish_input_params"),
-        "marker_lifetime",
-    )
 
     critics: tuple[Critic, ...] | None = option(
         None,
@@ -70,9 +63,8 @@ class Dwb(LocalController):
 
     def idle_options(self) -> dict[str, str]:
         """Return options that the others make idle."""
-        block, _ = self.blocks()
-        values, critics = self.settled(block), self.chosen_critics(block)
-        idle: dict[str, str] = {}
+        values, critics, _ = self.read()
+        idle = super().idle_options()
         if values["discretize_by_time"]:
             idle |= dict.fromkeys(("linear_granularity", "angular_granularity"), "discretize_by_time is on")
         else:
@@ -88,16 +80,20 @@ class Dwb(LocalController):
         """Return the options of a critic; RotateToGoal reads two of the controller in Nav2."""
         if not isinstance(critic, RotateToGoal):
             return critic.parameters
-        values = self.settled(self.blocks()[0])
+        values = self.read()[0]
         return critic.parameters | {name: values[name] for name in OF_CONTROLLER}
 
     def settled(self, block: Nav2Block | None) -> dict[str, Any]:
         """Return the values of the options of Nav2, before the limits of a robot."""
         values = super().settled(block)
+        if block is None:
+            return values
         for name in ("min_vel_y", "max_vel_y"):
-            if block is not None and block.take(name, float, 0.0):
+            if block.take(name, float, 0.0):
                 raise block.error("must be 0, robots cannot drive sideways", name)
-        return values
+        # since iron, where `prune_distance` is that behind
+        forward = read_option(self, "prune_distance", block, "forward_prune_distance")
+        return values if forward is None else values | {"prune_distance": forward}
 
     def chosen_critics(self, block: Nav2Block | None) -> tuple[AnyCritic, ...]:
         """Return the critics of the options, or else of the block, or else of the default."""

@@ -40,20 +40,17 @@ class NativeCritic(AnyNativeCritic, Critic):
 
     @classmethod
     def from_nav2(cls, block: Nav2Block) -> Self:
-        """Create the critic from a Nav2 file.
+        """Create the critic from its block in a Nav2 file.
 
         Raises:
             InputError: a value is not supported.
         """
-        name = cls.__name__
         values = {}
         for field in attrs.fields(cls):
-            key = f"{name}.{field.name}"
-            values[field.name] = block.take(
-                key, type(field.default), field.metadata.get(IN_CODE, field.default)
-            )  # a file means what Nav2's code takes where it says nothing
-            check_parameter(field, values[field.name], block, key)
-        block.ignore(f"{name}.class")
+            # a file means what Nav2's code takes where it says nothing
+            default = field.metadata.get(IN_CODE, field.default)
+            values[field.name] = block.take(field.name, type(field.default), default)
+            check_parameter(field, values[field.name], block, field.name)
         return cls(**values)
 
 

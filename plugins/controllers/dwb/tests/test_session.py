@@ -162,6 +162,12 @@ def test_critics_in_python_have_their_say():
     assert ask(GoalDist(), Leftward(answer="nothing", scale=0.0))[0].tolist() == plain.tolist()
 
 
+def test_a_fleet_of_several_robots_has_critics_in_python():
+    session = Dwb(critics=(GoalDist(), Leftward())).start_fleet((BURGER, BURGER), NOWHERE, PERIOD)
+    path = np.array([[(0.0, 0.0), (1.0, 0.0)]] * 2)
+    assert (session.command(look(0.0, np.zeros((2, 3)), np.zeros((2, 2)), path))[:, 1] > 0).all()
+
+
 @pytest.mark.parametrize("answer", ["short", "nan"])
 def test_a_critic_that_returns_no_scores_is_blamed_by_its_name(answer):
     with pytest.raises(BrokenContractError, match="the critic Leftward returned"):

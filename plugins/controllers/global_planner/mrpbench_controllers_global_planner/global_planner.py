@@ -81,12 +81,16 @@ class GlobalPlanner(Controller):
         filled = {name: value for name, value in defaults.items() if getattr(given, name) is None}
         values, footprint = attrs.evolve(given, **filled).settings(robot, None)
         values["max_detour"] = 0.0
-        return RobotSettings(values | lidar_values(robot), footprint)
+        return RobotSettings(values | lidar_values(robot), np.array(footprint))
 
     @property
     def needs_lidar(self) -> bool:
         """True if the global costmap has a layer that beams mark, or the other controller works by scans."""
         return bool(self.settings(SOME_ROBOT, 3.0).values["obstacle_layer"]) or self.primary_controller.needs_lidar
+
+    def notes(self) -> tuple[str, ...]:
+        """Return the notes of the other controller."""
+        return self.primary_controller.notes()
 
     def idle_options(self) -> dict[str, str]:
         """Return the idle options of the other controller."""

@@ -25,9 +25,6 @@ class Graceful(LocalController):
 
     native: ClassVar[str] = "graceful"
     nav2_plugin: ClassVar[str] = "nav2_graceful_controller::GracefulController"
-    ignored: ClassVar[tuple[str, ...]] = (
-        *("transform_tolerance", "max_robot_pose_search_dist", "min_lookahead", "use_sim_time"),
-    )
     renamed: ClassVar[Mapping[str, str]] = {
         "lambda": "lambda_",  # a keyword of Python
         "motion_target_dist": "max_lookahead",
@@ -51,8 +48,8 @@ class Graceful(LocalController):
 
     def idle_options(self) -> dict[str, str]:
         """Return options that the others make idle."""
-        values = self.settled(self.blocks()[0])
-        idle: dict[str, str] = {}
+        values = self.read()[0]
+        idle = super().idle_options()
         if not values["initial_rotation"]:
             idle["initial_rotation_tolerance"] = "initial_rotation is off"
         if not values["use_collision_detection"]:

@@ -1,6 +1,5 @@
 """Options of the rolling costmap, by the names and defaults of Nav2's local costmap."""
 
-import json
 from typing import Any, Literal, get_args
 
 import attrs
@@ -8,9 +7,13 @@ import numpy as np
 from attrs.validators import deep_iterable, gt, in_
 from mrpbench_native.local import robot_options
 
+from mrpbench_controllers_local.nav2_names import OF_COSTMAPS, OF_LAYERS, OF_SOURCES, OLDER_RANGES
 from mrpbench_core.api.described import DescribedOption, described
 from mrpbench_core.api.nav2 import as_parameter, parameter, settle
-from mrpbench_core.files.nav2 import Nav2Block
+from mrpbench_core.files import yaml
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.nav2 import OF_EVERY_NODE, Nav2Block
+from mrpbench_core.files.nav2_file import Nav2File
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import RobotModel
 
@@ -67,41 +70,24 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
         metadata={"help": "use this shape instead of a disc: `robot`, or a polygon of points [x, y]", "unit": None},
     )
 
-    def settings(self, robot: RobotModel, block: Nav2Block | None) -> tuple[dict[str, Any], Float]:
-        """Return the settings of one robot's costmap for the native part, and its footprint f8[k,2].
+    def settings(self, robot: RobotModel, block: Nav2Block | None) -> tuple[dict[str, Any], Polygon]:
+        """Return the settings of one robot's costmap for the native part, and its footprint.
 
         Raises:
             InputError: the Nav2 file has a value that is not supported.
         """
-        given = attrs.asdict(self, recurse=False)
-        layers = self.plugins or settle(self, None, of=LocalCostmap)["plugins"]
         values = settle(self, block, of=CostmapGrid)
-        inflation, observation = settle(self, of=InflationLayer), settle(self, of=ObservationSource)
+        values |= settle(self, of=InflationLayer) | settle(self, of=ObservationSource)
+        layers = self.plugins or settle(self, of=LocalCostmap)["plugins"]
         polygon = self._polygon(robot, block)
         if block is not None:
-            named = {name: _kind(block, name) for name in block.take_names("plugins")}
-            layers = self.plugins or tuple(named.values()) or layers
-            for name, kind in named.items():
-                if kind == "inflation_layer":
-                    inflation = settle(self, block, f"{name}.", of=InflationLayer)
-                elif kind in ("obstacle_layer", "voxel_layer"):
-                    for source in block.take(f"{name}.observation_sources", str, "").split():
-                        observation = settle(self, block, f"{name}.{source}.", of=ObservationSource)
-                        if given[_NOT_AS_NAV2] is None:
-                            observation[_NOT_AS_NAV2] = block.take(f"{name}.{source}.{_NOT_AS_NAV2}", bool, False)
-                        if block.take(f"{name}.{source}.observation_persistence", float, 0.0):
-                            raise block.error(
-                                "must be 0.0, only the newest scan marks cells",
-                                f"{name}.{source}.observation_persistence",
-                            )
-                        block.ignore(*(f"{name}.{source}.{word}" for word in _OF_SOURCES))
-                    cleared = block.take(f"{name}.footprint_clearing_enabled", bool)
-                    if cleared is not None and given["footprint_clearing_enabled"] is None:
-                        values["footprint_clearing_enabled"] = cleared
-                block.ignore(*(f"{name}.{word}" for word in _OF_LAYERS))
-            block.ignore(*_IGNORED, *(name for name in _LAYERS if named and name not in named))
-            block.refuse_unknown()
-        values |= inflation | observation
+            block.not_used(*OF_EVERY_NODE, *OF_COSTMAPS)
+            block.ignore("plugin_types", *block.take_names("filters"))
+            listed = block.take_names("plugins") or block.take_names("plugin_names") or _DEFAULT
+            named = {name: self._layer(block.within(name), name) for name in listed}
+            layers = self.plugins or tuple(kind for kind, _ in named.values() if kind)
+            for _, of_layer in named.values():
+                values |= of_layer
         radius = values.pop("robot_radius")
         values |= {
             "robot_radius": robot.radius if radius is None else radius,
@@ -110,61 +96,77 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
             "static_layer": "static_layer" in layers,
             "inflation_layer": "inflation_layer" in layers,
         }
-        return values, robot.footprint if polygon is None else polygon
+        shape = robot.footprint if polygon is None else polygon
+        return values, tuple((x, y) for x, y in shape.tolist())
+
+    def _layer(self, layer: Nav2Block, name: str) -> tuple[Layer | None, dict[str, Any]]:
+        """Return the layer that a plugin of the costmap is, None when it is disabled, and the values in its block."""
+        if not layer.take("enabled", bool, True):
+            layer.ignore()
+            return None, {}
+        own = next((kind for kind, word in _LAYERS.items() if word == name), name)
+        kind = layer.take("plugin", str, own).replace("/", "::").rpartition("::")[2]
+        if kind not in _LAYERS:
+            raise layer.error(f"{kind!r} is not an implemented layer", "plugin", hint=f"layers: {', '.join(_LAYERS)}")
+        layer.not_used(*OF_LAYERS)
+        values: dict[str, Any] = {}
+        if _LAYERS[kind] == "inflation_layer":
+            values = settle(self, layer, of=InflationLayer)
+        elif _LAYERS[kind] in ("obstacle_layer", "voxel_layer"):
+            values = self._observations(layer)
+            cleared = layer.take("footprint_clearing_enabled", bool)
+            if cleared is not None and attrs.asdict(self, recurse=False)["footprint_clearing_enabled"] is None:
+                values["footprint_clearing_enabled"] = cleared
+        return _LAYERS[kind], values
+
+    def _observations(self, layer: Nav2Block) -> dict[str, Any]:
+        """Return the values of the first lidar among the sources of a layer; robots have no other sensor here."""
+        sources = layer.take("observation_sources", str, "").split()
+        lidars = [name for name in sources if layer.take(f"{name}.data_type", str, "LaserScan") == "LaserScan"]
+        if not lidars:
+            return {}
+        source = layer.within(lidars[0])
+        source.take("data_type", str)
+        source.rename(OLDER_RANGES)
+        source.not_used(*OF_SOURCES, *OLDER_RANGES)
+        values = settle(self, source, of=ObservationSource)
+        if attrs.asdict(self, recurse=False)[_NOT_AS_NAV2] is None:
+            values[_NOT_AS_NAV2] = source.take(_NOT_AS_NAV2, bool, False)
+        if source.take("observation_persistence", float, 0.0):
+            raise source.error("must be 0.0, only the newest scan marks cells", "observation_persistence")
+        return values
 
     def _polygon(self, robot: RobotModel, block: Nav2Block | None) -> Float | None:
         if self.footprint is not None:
             return robot.footprint if self.footprint == "robot" else np.array(self.footprint, float)
         text = None if block is None else block.take("footprint", str)
-        if not text or block is None or self.robot_radius is not None:
+        if not text or text.split() in ([], ["[]"]) or block is None or self.robot_radius is not None:
             return None
         try:
-            polygon = np.array(json.loads(text), float)
-        except (ValueError, TypeError, RecursionError, OverflowError):
+            polygon = np.array(yaml.loads(text).data, float)
+        except (InputError, ValueError, TypeError, OverflowError):
             polygon = np.empty(0)
         if polygon.ndim != 2 or polygon.shape[1] != 2 or len(polygon) < 3 or not np.isfinite(polygon).all():
             raise block.error("must be a string with a list of at least three points [x, y]", "footprint")
         return polygon
 
 
-def _kind(block: Nav2Block, name: str) -> Layer | None:
-    """Return the layer that a plugin of the costmap is, or None when it is disabled."""
-    kind = block.take(f"{name}.plugin", str, name).rpartition("::")[2]
-    enabled = block.take(f"{name}.enabled", bool, True)
-    known: dict[str, Layer] = {
-        "ObstacleLayer": "obstacle_layer",
-        "VoxelLayer": "voxel_layer",
-        "StaticLayer": "static_layer",
-        "InflationLayer": "inflation_layer",
-    }
-    if kind not in known:
-        raise block.error(f"{kind!r} is not an implemented layer", f"{name}.plugin")
-    return known[kind] if enabled else None
+def costmap_notes(file: Nav2File, namespace: str) -> tuple[str, ...]:
+    """Return the notes that filters of the costmaps are ignored, and that the file has no local costmap."""
+    blocks = [file.node(name, namespace) for name in ("local_costmap", "global_costmap") if name in file.nodes]
+    filters = dict.fromkeys(name for block in blocks if block is not None for name in block.take_names("filters"))
+    notes = [f"filters of costmaps are ignored, their masks are not read: {', '.join(filters)}"] if filters else []
+    if "local_costmap" not in file.nodes:
+        notes.append(f"no parameters of the node 'local_costmap', so the defaults hold: {', '.join(file.nodes)}")
+    return tuple(f"{file.document.file}: {note}" for note in notes)
 
 
-_LAYERS = get_args(Layer)
-"""Nav2's own file has blocks of layers that its list of plugins leaves out; they are ignored."""
-_OF_SOURCES = (
-    "topic",
-    "data_type",
-    "max_obstacle_height",
-    "min_obstacle_height",
-    "sensor_frame",
-    "expected_update_rate",
-)
-_OF_LAYERS = (
-    *("plugin", "enabled", "publish_voxel_map", "origin_z", "z_resolution", "z_voxels", "max_obstacle_height"),
-    *(
-        "min_obstacle_height",
-        "mark_threshold",
-        "unknown_threshold",
-        "map_subscribe_transient_local",
-    ),
-    *("combination_method", "inflate_unknown", "inflate_around_unknown"),
-)
-"""Parameters without effect here: of the third dimension, of topics, and of unknown cells, which do not exist."""
-_IGNORED = (
-    *("use_sim_time", "publish_frequency", "global_frame", "robot_base_frame", "rolling_window", "filters"),
-    *("always_send_full_costmap", "transform_tolerance", "track_unknown_space", "plugin_names", "plugin_types"),
-    *("origin_x", "origin_y", "lethal_cost_threshold", "unknown_cost_value", "trinary_costmap", "map_topic"),
-)
+_LAYERS: dict[str, Layer] = {
+    "ObstacleLayer": "obstacle_layer",
+    "VoxelLayer": "voxel_layer",
+    "StaticLayer": "static_layer",
+    "InflationLayer": "inflation_layer",
+}
+"""The layers of Nav2 that there are here."""
+_DEFAULT = ("static_layer", "obstacle_layer", "inflation_layer")
+"""The layers that a costmap has in Nav2 unless a file lists others."""

@@ -6,6 +6,7 @@ from typing import Any, Protocol, TypeVar
 
 import attrs
 
+from mrpbench_controllers_local.nav2_names import OF_CRITICS
 from mrpbench_core.api import Component
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.nav2 import Nav2Block
@@ -70,7 +71,7 @@ class FromNav2(Protocol[C_co]):
     """The class of a critic of Nav2."""
 
     def from_nav2(self, block: Nav2Block) -> C_co:
-        """Create the critic from a Nav2 file."""
+        """Create the critic from its block in a Nav2 file."""
 
 
 def chosen(
@@ -84,7 +85,7 @@ def chosen(
     """Return the critics of an option, or else of a block FollowPath, or else the default; and the extra ones.
 
     Args:
-        block: the block, in which nothing may be left unread; None = there is none.
+        block: the block of the controller; None = there is none.
         known: the critics of Nav2 by name.
         own: the option `critics`.
         extra: the option `extra_critics`.
@@ -95,15 +96,21 @@ def chosen(
     """
     found: tuple[C, ...] = ()
     if block is not None:
-        names = block.take_names("critics")
-        for name in names:
-            if name not in known:
-                raise block.error(f"there is no critic {name!r}", "critics", hint=f"known critics: {', '.join(known)}")
-        found = tuple(known[name].from_nav2(block) for name in names)
-        block.ignore(*(name for name in known if name not in names))
-        block.refuse_unknown()
+        found = tuple(_from_nav2(block, name, known) for name in block.take_names("critics"))
     critics = own or found or default
     kinds = {type(critic) for critic in critics}
     if twice := next((critic for critic in extra if type(critic) in kinds), None):
         raise InputError(f"extra_critics: {type(twice).__name__} is there already", hint="set its weight in `critics`")
     return critics + extra
+
+
+def _from_nav2(block: Nav2Block, name: str, known: Mapping[str, FromNav2[C]]) -> C:
+    """Return the critic that a block of a controller lists by an id, which is also its class unless it names one."""
+    inner = block.within(name)
+    inner.not_used(*OF_CRITICS)
+    named = inner.take("class", str, name)
+    short = named.replace("/", "::").rpartition("::")[2]
+    kind = next((kind for kind in (short, short.removesuffix("Critic")) if kind in known), None)
+    if kind is None:
+        raise block.error(f"there is no critic {named!r}", "critics", hint=f"known critics: {', '.join(known)}")
+    return known[kind].from_nav2(inner)

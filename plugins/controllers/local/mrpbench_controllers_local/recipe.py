@@ -9,18 +9,23 @@ import attrs
 import numpy as np
 from mrpbench_native.local import controller_options, robot_options
 
-from mrpbench_controllers_local.costmap import LocalCostmap
+from mrpbench_controllers_local.controller_block import controller_block, controller_notes, primary_block
+from mrpbench_controllers_local.costmap import LocalCostmap, Polygon, costmap_notes
 from mrpbench_controllers_local.critics import Critic, NativeCritic
+from mrpbench_controllers_local.nav2_names import OF_CONTROLLERS, OF_PATH_HANDLERS
 from mrpbench_controllers_local.settings import RobotSettings, lidar_values
 from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, between, option
 from mrpbench_core.api.described import described
-from mrpbench_core.api.nav2 import settle
+from mrpbench_core.api.nav2 import controller_server, not_used, plugin_ids, read_option, settle
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.nav2 import Nav2Block, nav2_block
+from mrpbench_core.files.nav2 import Nav2Block
+from mrpbench_core.files.nav2_file import Nav2File
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.worlds.world import World
 
 _FURTHER = robot_options("further")
+_Read = tuple[dict[str, Any], tuple[Critic, ...], tuple[dict[str, Any], Polygon]]
+"""Values of the controller, its critics, and values and footprint of its costmap."""
 
 
 @attrs.frozen(kw_only=True, slots=False)
@@ -32,13 +37,17 @@ class LocalController(Controller):
     """Its name in `mrpbench_native.local`."""
     nav2_plugin: ClassVar[str]
     """Its name in Nav2 parameter files."""
-    ignored: ClassVar[tuple[str, ...]] = ()
-    """Parameters of Nav2 without effect here: of topics, sideways motion and transforms."""
     renamed: ClassVar[Mapping[str, str]] = {}
     """Names of options in Nav2 parameter files, where these or those of older releases differ."""
 
     nav2: Path | None = option(
-        None, help="a Nav2 parameter file: its blocks FollowPath and local_costmap; options given here win"
+        None,
+        help="a Nav2 parameter file: the block of this controller in controller_server, and local_costmap; options "
+        "given here win",
+    )
+    namespace: str | None = option(None, help="namespace of the robot in the Nav2 file, where namespaces differ in it")
+    controller_id: str | None = option(
+        None, help="id of the controller in the Nav2 file, where several there are of this kind"
     )
     FollowPath: Mapping[str, Any] = attrs.field(
         factory=dict,
@@ -68,21 +77,12 @@ class LocalController(Controller):
         """
         if block is not None:
             block.rename(self.renamed)
-        values = settle(self, block)
-        if block is not None:
-            key, plugin = "plugin", block.take("plugin", str, self.nav2_plugin)
-            if plugin == _SHIM:  # the parameters of the controller in the shim are in the same block
-                key, plugin = "primary_controller", block.take("primary_controller", str, self.nav2_plugin)
-                block.ignore(*_OF_SHIM)
-            if plugin != self.nav2_plugin:
-                raise block.error(f"is not {self.nav2_plugin}", key)
-            block.ignore(*self.ignored)
-        return values
+            block.not_used(*OF_CONTROLLERS, *self.renamed)
+        return settle(self, block)
 
     def chosen_critics(self, block: Nav2Block | None) -> tuple[Critic, ...]:
-        """Return the critics, and refuse what is left unread in the block."""
-        if block is not None:
-            block.refuse_unknown()
+        """Return the critics of the options, or else of the block, or else of the default."""
+        del block
         return ()
 
     def critic_parameters(self, critic: NativeCritic) -> dict[str, Any]:
@@ -103,41 +103,79 @@ class LocalController(Controller):
         """
         from mrpbench_controllers_local.session import LocalSession
 
-        settings = [(robot, self.settings(robot, period)) for robot in robots]
+        file = self.file()
+        settings = [(robot, self.settings(robot, period, file)) for robot in robots]
         try:
             return LocalSession(self.native, settings, world, self.threads, self.critic_parameters, seed)
         except ValueError as error:
             raise InputError(f"controller: {self.native}: {error}", file=self.nav2) from None
 
-    def settings(self, robot: RobotModel, period: float) -> RobotSettings:
-        """Return the settings of one robot for the native part.
+    def settings(self, robot: RobotModel, period: float, file: Nav2File | None = None) -> RobotSettings:
+        """Return the settings of one robot for the native part; `file` is the Nav2 file, if it is read already.
 
         Raises:
             InputError: the Nav2 file has a value that is not supported.
         """
-        follow, local = self.blocks()
-        values = self.settled(follow)
-        critics = self.chosen_critics(follow)
-        values = self.limits(values, robot, period)
-        costmap, footprint = (self.local_costmap or LocalCostmap()).settings(robot, local)
+        values, critics, (costmap, footprint) = self._read(robot, file or self.file())[0]
+        values = self.limits(dict(values), robot, period)
         further = (*_FURTHER, *controller_options(self.native, further=True))
         values |= costmap | {row.name: getattr(self, row.name) for row in further}
-        return RobotSettings(values | lidar_values(robot), footprint, critics)
+        return RobotSettings(values | lidar_values(robot), np.array(footprint), critics)
 
     @property
     def needs_lidar(self) -> bool:
         """True if the costmap has a layer that beams mark."""
         return bool(self.settings(SOME_ROBOT, 0.05).values["obstacle_layer"])
 
-    def blocks(self) -> tuple[Nav2Block | None, Nav2Block | None]:
-        """Return the blocks FollowPath and local_costmap, None where there is none."""
-        if self.nav2 is None:
-            return (Nav2Block("FollowPath", self.FollowPath) if self.FollowPath else None), None
-        follow = nav2_block(self.nav2, "controller_server", "FollowPath")
-        local = nav2_block(self.nav2, "local_costmap")
-        if follow is None and local is None:
-            raise InputError("has neither FollowPath of controller_server nor local_costmap", file=self.nav2)
-        return follow, local
+    def notes(self) -> tuple[str, ...]:
+        """Return what the Nav2 file says without effect."""
+        return self._read(SOME_ROBOT, self.file())[1]
+
+    def idle_options(self) -> dict[str, str]:
+        """Return options that the others make idle."""
+        return {} if self.nav2 else dict.fromkeys(("namespace", "controller_id"), "there is no Nav2 file")
+
+    def file(self) -> Nav2File | None:
+        """Return the Nav2 file."""
+        return None if self.nav2 is None else Nav2File.load(self.nav2)
+
+    def read(self) -> _Read:
+        """Return what the options and the Nav2 file say, before the limits of a robot."""
+        return self._read(SOME_ROBOT, self.file())[0]
+
+    def _read(self, robot: RobotModel, file: Nav2File | None) -> tuple[_Read, tuple[str, ...]]:
+        """Return what the options and the Nav2 file say, and notes on what the file says without effect."""
+        if file is None:
+            pasted = Nav2Block("", {"FollowPath": self.FollowPath}) if self.FollowPath else None
+            return self._of_blocks(robot, pasted, None), not_used(pasted)
+
+        def read(namespace: str) -> tuple[_Read, tuple[str, ...]]:
+            server = controller_server(file, namespace)
+            costmap = file.node("local_costmap", namespace) if "local_costmap" in file.nodes else None
+            found = self._of_blocks(robot, server, costmap)
+            block = controller_block(server, self.nav2_plugin, self.controller_id)
+            return found, (
+                *controller_notes(server, block),
+                *not_used(server, costmap),
+                *costmap_notes(file, namespace),
+            )
+
+        return file.read("controller_server", self.namespace, read)
+
+    def _of_blocks(self, robot: RobotModel, server: Nav2Block | None, costmap: Nav2Block | None) -> _Read:
+        block = None if server is None else controller_block(server, self.nav2_plugin, self.controller_id)
+        primary = None if block is None else primary_block(block)
+        if block is not None:
+            block.not_used(*OF_CONTROLLERS)
+        values = self.settled(primary)
+        if server is not None:  # since lyrical, path handlers have what controllers had
+            handler = server.within(plugin_ids(server, "path_handler")[0])
+            handler.take("plugin", str)
+            handler.not_used(*OF_PATH_HANDLERS)
+            distance = read_option(self, "prune_distance", handler) if "prune_distance" in values else None
+            values |= {} if distance is None else {"prune_distance": distance}
+        critics = self.chosen_critics(primary)
+        return values, critics, (self.local_costmap or LocalCostmap()).settings(robot, costmap)
 
 
 def limited(value: float | None, limit: float) -> float:
@@ -145,13 +183,6 @@ def limited(value: float | None, limit: float) -> float:
     return limit if value is None else min(value, limit)
 
 
-_SHIM = "nav2_rotation_shim_controller::RotationShimController"
-_OF_SHIM = (
-    *("forward_sampling_distance", "angular_dist_threshold", "angular_disengage_threshold", "max_angular_accel"),
-    *("rotate_to_heading_angular_vel", "simulate_ahead_time", "rotate_to_goal_heading", "rotate_to_heading_once"),
-    *("closed_loop", "use_path_orientations"),
-)
-"""Parameters of Nav2's rotation shim, which the plugin `rotation_shim` reads."""
 SOME_ROBOT = RobotModel(
     name="any", footprint=np.array([(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)]), max_speed=1.0, max_turn_rate=1.0
 )

@@ -63,10 +63,10 @@ class LocalSession(FleetControllerSession):
             )
             others = [critic for critic in settings.critics if not isinstance(critic, NativeCritic) and critic.weight]
             started = [(type(critic).__name__, critic.weight, critic.start(robot, world)) for critic in others]
-            for name, _, session in started:
+            for critic_name, _, session in started:
                 if not isinstance(session, CriticSession):
                     what = type(session).__name__
-                    raise BrokenContractError(f"the critic {name} returned {what} instead of a session")
+                    raise BrokenContractError(f"the critic {critic_name} returned {what} instead of a session")
             self._in_python.append(started)
         self._scored = any(self._in_python)
         """Whether any robot has critics in Python."""

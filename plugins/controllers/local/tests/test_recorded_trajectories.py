@@ -6,6 +6,7 @@ import pytest
 import mrpbench_core
 from mrpbench_core.store.recording import Recording
 
+pytestmark = pytest.mark.usefixtures("kept_workers")
 CONTROLLERS = {
     "dwb": {"plugin": "dwb"},
     "mppi": {"plugin": "mppi", "batch_size": 100},

@@ -14,9 +14,12 @@ from mrpbench_controllers_mppi.critic import MppiCritic
 from mrpbench_controllers_mppi.nav2_critics import DEFAULT, NATIVE
 from mrpbench_core.api import option
 from mrpbench_core.api.described import described
-from mrpbench_core.api.nav2 import as_parameter
+from mrpbench_core.api.nav2 import as_parameter, read_option
 from mrpbench_core.files.nav2 import Nav2Block
 from mrpbench_core.model.common.fleet import RobotModel
+
+_VALIDATOR = "DefaultOptimalTrajectoryValidator"
+_SIDEWAYS = "robots cannot drive sideways"
 
 
 @attrs.frozen(kw_only=True)
@@ -27,12 +30,6 @@ class Mppi(LocalController):
 
     native: ClassVar[str] = "mppi"
     nav2_plugin: ClassVar[str] = "nav2_mppi_controller::MPPIController"
-    ignored: ClassVar[tuple[str, ...]] = (
-        *("visualize", "TrajectoryVisualizer", "publish_critics_stats", "publish_optimal_trajectory", "Visualization"),
-        *("transform_tolerance", "max_robot_pose_search_dist", "reset_period", "vy_std", "vy_max", "ay_max", "ay_min"),
-        *("enforce_path_inversion", "inversion_xy_tolerance", "inversion_yaw_tolerance"),
-        *("minimum_rotation_angle", "advanced", "TrajectoryValidator", "model_delay_vy"),
-    )
 
     critics: tuple[MppiCritic, ...] | None = option(
         None,
@@ -48,15 +45,30 @@ class Mppi(LocalController):
         values = super().settled(block)
         if block is None:
             return values
-        model = block.take("motion_model", str, "DiffDrive")
-        if model not in ("DiffDrive", "Ackermann"):
-            raise block.error("must be DiffDrive or Ackermann, robots cannot drive sideways", "motion_model")
-        radius = block.take("AckermannConstraints.min_turning_r", float, 0.2)
-        if radius <= 0:
-            raise block.error("must be above 0", "AckermannConstraints.min_turning_r")
-        if model == "Ackermann" and attrs.asdict(self, recurse=False)["min_turning_r"] is None:
+        radius = self._turning_radius(block)
+        if radius is not None and attrs.asdict(self, recurse=False)["min_turning_r"] is None:
             values["min_turning_r"] = radius
-        return values
+        validator = block.within("TrajectoryValidator")
+        validator.not_used("consider_footprint")
+        plugin = validator.take("plugin", str, _VALIDATOR)
+        if plugin.rpartition("::")[2] != _VALIDATOR:
+            raise validator.error(f"must be {_VALIDATOR}, got {plugin!r}", "plugin")
+        seconds = read_option(self, "collision_lookahead_time", validator)
+        return values if seconds is None else values | {"collision_lookahead_time": seconds}
+
+    def _turning_radius(self, block: Nav2Block) -> float | None:
+        """Return the least radius of the motion model, None of DiffDrive: a name, since lyrical the id of a block."""
+        named = block.take("motion_model", str, "DiffDrive")
+        model = block.within(named)
+        kind = model.take("plugin", str, named).rpartition("::")[2].removesuffix("MotionModel")
+        kind = {"diff_drive": "DiffDrive", "ackermann": "Ackermann"}.get(kind, kind)
+        if kind not in ("DiffDrive", "Ackermann"):
+            raise block.error(f"must be DiffDrive or Ackermann, got {kind!r}", "motion_model", hint=_SIDEWAYS)
+        limits = model if "min_turning_r" in model else block.within("AckermannConstraints")
+        radius: float = limits.take("min_turning_r", float, 0.2)
+        if radius <= 0:
+            raise limits.error("must be above 0", "min_turning_r")
+        return radius if kind == "Ackermann" else None
 
     def limits(self, values: dict[str, Any], robot: RobotModel, period: float) -> dict[str, Any]:
         """Return the values within the limits of a robot."""

@@ -25,17 +25,18 @@ class NativeMppiCritic(NativeCritic, MppiCritic):
 
     @classmethod
     def from_nav2(cls, block: Nav2Block) -> Self:
-        """Create the critic from a Nav2 file.
+        """Create the critic from its block in a Nav2 file.
 
         Raises:
             InputError: a value is not supported.
         """
+        if not block.take("enabled", bool, True):
+            block.ignore()
+            block = Nav2Block(block.title, {"enabled": False})
         values = {}
         for field in attrs.fields(cls):
-            key = f"{cls.__name__}.{field.name}"
-            values[field.name] = block.take(key, type(field.default), field.default)
-            check_parameter(field, values[field.name], block, key)
-        block.ignore(f"{cls.__name__}.inflation_layer_name", f"{cls.__name__}.use_path_orientations")
+            values[field.name] = block.take(field.name, type(field.default), field.default)
+            check_parameter(field, values[field.name], block, field.name)
         return cls(**values)
 
 
@@ -97,6 +98,17 @@ class TwirlingCritic(NativeMppiCritic):
 @_native
 class VelocityDeadbandCritic(NativeMppiCritic):
     """Avoids velocities that the drive does not execute."""
+
+    @classmethod
+    def from_nav2(cls, block: Nav2Block) -> Self:
+        """Create the critic from its block, in which Nav2 lists the deadbands of x, y and yaw."""
+        critic = super().from_nav2(block)
+        found = critic.parameters
+        name, own = "deadband_velocities", (found["deadband_vx"], 0.0, found["deadband_wz"])
+        deadbands = block.take(name, tuple, own)
+        if len(deadbands) != 3 or not all(type(value) in (int, float) and 0 <= value < 1e3 for value in deadbands):
+            raise block.error(f"must be three numbers from 0 on, got {list(deadbands)!r}", name)
+        return cls(**found | {"deadband_vx": float(deadbands[0]), "deadband_wz": float(deadbands[2])})
 
 
 _ALL: tuple[type[NativeMppiCritic], ...] = (

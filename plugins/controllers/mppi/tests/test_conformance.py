@@ -5,13 +5,8 @@ from mrpbench_controllers_mppi import CriticSession, GoalCritic, Mppi, MppiCriti
 from mrpbench_controllers_mppi.nav2_critics import DEFAULT
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.testing import ControllerConformance, failed_checks, suite_for
+from mrpbench_core.testing import failed_checks, suite_for
 from mrpbench_core.testing.fixtures.following import NOWHERE, SPRINTER, seen
-
-
-class TestMppi(ControllerConformance):
-    def make(self):
-        return Mppi(batch_size=500)
 
 
 class LeftSession(CriticSession):

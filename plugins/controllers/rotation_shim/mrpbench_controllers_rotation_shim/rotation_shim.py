@@ -2,14 +2,16 @@
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import attrs
 from attrs.validators import gt
+from mrpbench_controllers_local.controller_block import NOT_HERE, SHIM, controller_block
 
 from mrpbench_controllers_rotation_shim.session import RotationShimSession, Turning
 from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, option
-from mrpbench_core.api.nav2 import parameter, settle
-from mrpbench_core.files.nav2 import Nav2Block, nav2_block
+from mrpbench_core.api.nav2 import controller_server, parameter, settle
+from mrpbench_core.files.nav2_file import Nav2File
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.worlds.world import World
 
@@ -21,8 +23,10 @@ class RotationShim(Controller):
     primary_controller: Controller = option(help="the controller that drives the robot once it heads along its path")
     nav2: Path | None = option(
         None,
-        help="a Nav2 parameter file, whose block FollowPath has the parameters of the shim; options given here win",
+        help="a Nav2 parameter file, whose controller_server has a block of the shim; options given here win",
     )
+    namespace: str | None = option(None, help="namespace of the robot in the Nav2 file, where namespaces differ in it")
+    controller_id: str | None = option(None, help="id of the shim in the Nav2 file, where it has several")
     forward_sampling_distance: float | None = parameter(
         0.5, help="distance along the path of the point to which the robot turns", unit="m", validator=gt(0)
     )
@@ -46,7 +50,15 @@ class RotationShim(Controller):
 
     def __attrs_post_init__(self) -> None:
         """Read the Nav2 block, so that errors in it are found before anything runs."""
-        settle(self, self._block())
+        self.settled()
+
+    def settled(self) -> dict[str, Any]:
+        """Return the values of the options of Nav2.
+
+        Raises:
+            InputError: the Nav2 file has no shim, or a value that is not supported.
+        """
+        return settle(self) if self.nav2 is None else self._read(self.nav2)[0]
 
     def start(self, robot: RobotModel, world: World, period: float) -> ControllerSession:
         """Begin to control one robot."""
@@ -57,7 +69,7 @@ class RotationShim(Controller):
     ) -> FleetControllerSession:
         """Begin to control a fleet, all robots in one call."""
         primary = self.primary_controller.start_fleet(robots, world, period, seed)
-        return RotationShimSession(primary, Turning(**settle(self, self._block())), robots, period)
+        return RotationShimSession(primary, Turning(**self.settled()), robots, period)
 
     @property
     def needs_lidar(self) -> bool:
@@ -65,8 +77,28 @@ class RotationShim(Controller):
         return self.primary_controller.needs_lidar
 
     def idle_options(self) -> dict[str, str]:
-        """Return the idle options of the other controller."""
-        return {f"primary_controller.{name}": why for name, why in self.primary_controller.idle_options().items()}
+        """Return options that the others make idle, and the idle options of the other controller."""
+        inner = {f"primary_controller.{name}": why for name, why in self.primary_controller.idle_options().items()}
+        return inner if self.nav2 else inner | dict.fromkeys(("namespace", "controller_id"), "there is no Nav2 file")
 
-    def _block(self) -> Nav2Block | None:
-        return None if self.nav2 is None else nav2_block(self.nav2, "controller_server", "FollowPath")
+    def notes(self) -> tuple[str, ...]:
+        """Return what the Nav2 file says without effect here, and the notes of the other controller."""
+        own = () if self.nav2 is None else self._read(self.nav2)[1]
+        inner = self.primary_controller.notes()
+        return (*own, *(note for note in inner if self.nav2 is None or not note.endswith(NOT_HERE)))
+
+    def _read(self, nav2: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
+        """Return what the Nav2 file says, and notes on what it says without effect."""
+        file = Nav2File.load(nav2)
+
+        def read(namespace: str) -> tuple[dict[str, Any], tuple[str, ...]]:
+            block = controller_block(controller_server(file, namespace), SHIM, self.controller_id)
+            unread = ", ".join(name for name in _NOT_USED if name in block)
+            return settle(self, block), (f"{nav2}: {block.title}: not used here: {unread}",) if unread else ()
+
+        return file.read("controller_server", self.namespace, read)
+
+
+_NOT_USED = ("rotate_to_heading_once", "use_path_orientations")
+"""Parameters of Nav2's shim without effect here. The other parameters of its block are for the other controller, which
+also refuses those that are unknown."""

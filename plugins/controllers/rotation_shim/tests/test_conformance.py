@@ -4,12 +4,6 @@ from mrpbench_controllers_rotation_shim import RotationShim
 from mrpbench_core.testing import ControllerConformance
 
 
-class TestRotationShim(ControllerConformance):
-    def make(self):
-        pursuit = pytest.importorskip("mrpbench_controllers_pure_pursuit")
-        return RotationShim(primary_controller=pursuit.PurePursuit())
-
-
 class TestRotationShimAroundGraceful(ControllerConformance):
     def make(self):
         graceful = pytest.importorskip("mrpbench_controllers_graceful")

@@ -23,10 +23,6 @@ class Rpp(LocalController):
 
     native: ClassVar[str] = "rpp"
     nav2_plugin: ClassVar[str] = "nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController"
-    ignored: ClassVar[tuple[str, ...]] = (
-        *("transform_tolerance", "max_robot_pose_search_dist", "stateful", "use_cancel_deceleration"),
-        *("cancel_deceleration", "use_interpolation"),
-    )
     renamed: ClassVar[Mapping[str, str]] = {"desired_linear_vel": "max_linear_vel"}
 
     def limits(self, values: dict[str, Any], robot: RobotModel, period: float) -> dict[str, Any]:
@@ -46,8 +42,8 @@ class Rpp(LocalController):
 
     def idle_options(self) -> dict[str, str]:
         """Return options that the others make idle."""
-        values = self.settled(self.blocks()[0])
-        idle: dict[str, str] = {}
+        values = self.read()[0]
+        idle = super().idle_options()
 
         def needs(switch: str, *names: str, on: bool = True) -> None:
             if values[switch] != on:

@@ -3,11 +3,6 @@ from mrpbench_controllers_rpp import Rpp
 from mrpbench_core.testing import ControllerConformance
 
 
-class TestRpp(ControllerConformance):
-    def make(self):
-        return Rpp()
-
-
 class TestRppWithADynamicWindow(ControllerConformance):
     def make(self):
         return Rpp(use_dynamic_window=True)

@@ -31,13 +31,13 @@ class Bag:
         """Begin a bag.
 
         Raises:
-            InputError: the destination's folder is missing, or something that is no bag stands in its place.
+            InputError: the destination's folder is missing, or something that is not a bag stands in its place.
         """
         if not destination.parent.is_dir():
             raise InputError("the folder to write the bag to does not exist", file=destination.parent)
         if destination.exists() and not _is_bag(destination):
             raise InputError(
-                "is no rosbag2, so it is not replaced", file=destination, hint="move it away or choose another name"
+                "is not a rosbag2, so it is not replaced", file=destination, hint="move it away or choose another name"
             )
         self.destination = destination
         self.workshop = destination.with_name(f".{destination.name}.partial")

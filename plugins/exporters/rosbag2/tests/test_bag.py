@@ -166,7 +166,7 @@ def test_a_folder_that_is_not_a_bag_is_not_replaced(tmp_path):
     (tmp_path / "thesis" / "chapter.tex").write_text("years of work")
     (tmp_path / "file").write_text("")
     for name in ("thesis", "file"):
-        with pytest.raises(InputError, match="is no rosbag2"):
+        with pytest.raises(InputError, match="is not a rosbag2"):
             Bag(tmp_path / name, "mcap", 9)
     assert (tmp_path / "thesis" / "chapter.tex").exists()
     with pytest.raises(InputError, match="does not exist"):

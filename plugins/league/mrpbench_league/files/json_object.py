@@ -27,19 +27,19 @@ class JsonObject:
         """Read a file that holds one object.
 
         Raises:
-            InputError: it is no JSON, or no object.
+            InputError: it is not JSON, or not an object.
         """
         text = read_text(file)
         try:
             values = json.loads(text, parse_constant=_refuse)
         except json.JSONDecodeError as error:
-            message = f"is no JSON: {error.msg}"
+            message = f"is not JSON: {error.msg}"
             raise InputError(message, file=file, line=error.lineno, column=error.colno) from None
         except RecursionError:
-            raise InputError("is no JSON: nested too deeply", file=file) from None
+            raise InputError("is not JSON: nested too deeply", file=file) from None
         except ValueError as error:
             reason = str(error).partition(";")[0]  # Python's advice on long numbers follows
-            raise InputError(f"is no JSON: {reason}", file=file) from None
+            raise InputError(f"is not JSON: {reason}", file=file) from None
         if not isinstance(values, dict):
             raise InputError("should hold one JSON object", file=file, line=1)
         return cls(file, text, values)
@@ -97,4 +97,4 @@ class JsonObject:
 
 
 def _refuse(name: str) -> Any:
-    raise ValueError(f"{name} is no number of JSON")
+    raise ValueError(f"{name} is not a number of JSON")

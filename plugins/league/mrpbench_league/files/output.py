@@ -189,4 +189,4 @@ def write_output(file: Path, output: LorrOutput, paths: list[str], **others: Any
 def _plain(value: Any) -> Any:
     if isinstance(value, np.generic | np.ndarray):
         return value.tolist()
-    raise TypeError(f"{type(value)} is no value of JSON")
+    raise TypeError(f"{type(value)} is not a value of JSON")

@@ -143,7 +143,7 @@ def _read_cells(file: Path, blocked: Bool, *, single: bool) -> list[tuple[int, l
             raise InputError("should hold one cell", file=file, line=number)
         for word in words:
             if not _is_whole(word):
-                raise InputError(f"{word!r} is no cell", file=file, line=number)
+                raise InputError(f"{word!r} is not a cell", file=file, line=number)
             if int(word) >= free.size:
                 raise InputError(f"cell {word} is outside the map of {free.size} cells", file=file, line=number)
             if not free[int(word)]:

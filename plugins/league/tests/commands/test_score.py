@@ -56,10 +56,10 @@ def test_motion_of_another_length_is_named(files, capsys, changes, message):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("[" * 100_000, "is no JSON: nested too deeply"),
+        ("[" * 100_000, "is not JSON: nested too deeply"),
         (
             '{"teamSize": ' + "9" * 5000 + "}",
-            "is no JSON: Exceeds the limit (4300 digits) for integer string conversion",
+            "is not JSON: Exceeds the limit (4300 digits) for integer string conversion",
         ),
         ('{"teamSize": [' + "1," * 5000 + "1]}", "teamSize: should be a whole number from 1 to 2147483647, is [1, 1"),
         ('{"teamSize": 1, "makespan": 3}', "has no 'actualPaths'"),

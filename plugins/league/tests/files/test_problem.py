@@ -45,7 +45,7 @@ def test_the_three_seasons_are_read(tmp_path):
         ({"version": "2024 LoRR"}, {"agents": "2\n0\n1\n"}, r"a\.agents:3: cell 1 is blocked"),
         ({"version": "2024 LoRR"}, {"agents": "2\n0\n0\n"}, r"a\.agents:3: cell 0 is the start of line 2 too"),
         ({"version": "2024 LoRR"}, {"tasks": "2\n0,9\n2\n"}, r"t\.tasks:2: cell 9 is outside the map of 6 cells"),
-        ({"version": "2024 LoRR"}, {"tasks": "2\n0,x\n2\n"}, r"t\.tasks:2: 'x' is no cell"),
+        ({"version": "2024 LoRR"}, {"tasks": "2\n0,x\n2\n"}, r"t\.tasks:2: 'x' is not a cell"),
         ({"version": "2024 LoRR"}, {"tasks": "3\n0\n2\n"}, r"t\.tasks: has 2 of 3 lines"),
         ({}, {}, r"t\.tasks:3: should hold one cell"),
         (
@@ -66,5 +66,5 @@ def test_a_mistake_is_named_with_its_place(tmp_path, head, files, message):
 def test_what_is_no_json_is_named_with_its_line(tmp_path):
     file = tmp_path / "p.json"
     file.write_text('{\n"teamSize": 1,\n}')
-    with pytest.raises(InputError, match=r"p\.json:3:\d+: is no JSON"):
+    with pytest.raises(InputError, match=r"p\.json:3:\d+: is not JSON"):
         read_problem(file)

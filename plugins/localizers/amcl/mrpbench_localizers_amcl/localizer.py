@@ -9,24 +9,24 @@ from mrpbench_native.amcl import options
 
 from mrpbench_core.api import Localizer, LocalizerSession, option
 from mrpbench_core.api.described import described
-from mrpbench_core.api.nav2 import as_parameter, parameter, settle
+from mrpbench_core.api.nav2 import as_parameter, not_used, parameter, settle
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.nav2 import nav2_block
+from mrpbench_core.files.nav2 import OF_EVERY_NODE
+from mrpbench_core.files.nav2_file import Nav2File
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.worlds.world import World
 from mrpbench_localizers_amcl.session import AmclSession
 
-_MEANINGLESS = (
-    *("base_frame_id", "global_frame_id", "odom_frame_id", "map_topic", "scan_topic", "qos_overrides", "use_sim_time"),
-    *("tf_broadcast", "transform_tolerance", "save_pose_rate", "bond_heartbeat_period", "introspection_mode"),
-    *("service_introspection_mode", "always_reset_initial_pose", "set_initial_pose", "initial_pose", "first_map_only"),
-    *("freespace_downsampling", "random_seed"),
+_NOT_USED = (
+    *("base_frame_id", "global_frame_id", "odom_frame_id", "map_topic", "scan_topic", "use_map_topic"),
+    *("tf_broadcast", "transform_tolerance", "save_pose_rate", "always_reset_initial_pose", "set_initial_pose"),
+    *("first_map_only", "first_map_only_", "freespace_downsampling", "random_seed", "gui_publish_rate"),
     # of other models of lidars and robots
     *("alpha5", "beam_skip_distance", "beam_skip_error_threshold", "beam_skip_threshold"),
     *("lambda_short", "z_max", "z_short"),
 )
-"""Parameters of Nav2's node that have no effect here."""
+"""Parameters of Nav2's node that have no effect here, besides those of every node and the block `initial_pose`."""
 _DIFFERENTIAL = ("nav2_amcl::DifferentialMotionModel", "differential")
 
 
@@ -38,6 +38,7 @@ class Amcl(Localizer):
     nav2: Path | None = option(
         None, help="Nav2 parameter file whose block `amcl` is read; options given here take precedence"
     )
+    namespace: str | None = option(None, help="namespace of the robot in the Nav2 file, where namespaces differ in it")
     resolution: float = option(0.05, help="side of the squares of the likelihood field", unit="m", validator=gt(0))
     laser_max_range: float | None = parameter(
         100.0,
@@ -80,7 +81,12 @@ class Amcl(Localizer):
         """Return what decides the number of particles, if that is fixed."""
         values = self._settled()
         fixed = values["min_particles"] == values["max_particles"]
-        return dict.fromkeys(("pf_err", "pf_z"), "min_particles equals max_particles") if fixed else {}
+        idle = dict.fromkeys(("pf_err", "pf_z"), "min_particles equals max_particles") if fixed else {}
+        return idle if self.nav2 else idle | {"namespace": "there is no Nav2 file"}
+
+    def notes(self) -> tuple[str, ...]:
+        """Return what the Nav2 file says without effect."""
+        return () if self.nav2 is None else self._read(self.nav2)[1]
 
     def _settled(self) -> dict[str, Any]:
         """Return the values of all parameters.
@@ -88,15 +94,22 @@ class Amcl(Localizer):
         Raises:
             InputError: the Nav2 file has an error.
         """
-        if self.nav2 is None:
-            return settle(self, None)
-        block = nav2_block(self.nav2, "amcl")
-        if block is None:
-            raise InputError("has no parameters of `amcl`", file=self.nav2)
-        block.ignore(*_MEANINGLESS)
-        skips = block.take("do_beamskip", bool, False)
-        values = settle(self, block)
-        block.refuse_unknown()
-        if skips and values["laser_model_type"] == "likelihood_field_prob":
-            raise block.error("skipping beams is not implemented", "do_beamskip")
-        return values
+        return settle(self) if self.nav2 is None else self._read(self.nav2)[0]
+
+    def _read(self, nav2: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
+        """Return the values of all parameters, and notes on what the Nav2 file says without effect."""
+        file = Nav2File.load(nav2)
+
+        def read(namespace: str) -> tuple[dict[str, Any], tuple[str, ...]]:
+            block = file.node("amcl", namespace)
+            names = [field.name for field in attrs.fields(type(self)) if "nav2" in field.metadata]
+            if block is None or not ("amcl" in file.nodes or any(name in block for name in names)):
+                raise file.missing("amcl")
+            block.not_used(*OF_EVERY_NODE, *_NOT_USED)
+            skips = block.take("do_beamskip", bool, False)
+            values = settle(self, block)
+            if skips and values["laser_model_type"] == "likelihood_field_prob":
+                raise block.error("skipping beams is not implemented", "do_beamskip")
+            return values, not_used(block)
+
+        return file.read("amcl", self.namespace, read)

@@ -4,11 +4,6 @@ from mrpbench_localizers_amcl import Amcl
 from mrpbench_core.testing import LocalizerConformance
 
 
-class TestAmcl(LocalizerConformance):
-    def make(self):
-        return Amcl()
-
-
 class TestWithIndependentBeamsAndRecovery(LocalizerConformance):
     def make(self):
         return Amcl(laser_model_type="likelihood_field_prob", recovery_alpha_slow=0.001, recovery_alpha_fast=0.1)

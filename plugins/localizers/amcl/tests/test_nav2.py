@@ -85,7 +85,7 @@ def test_defaults_are_nav2s():
         (("nav2_amcl::DifferentialMotionModel", "nav2_amcl::OmniMotionModel"), "robot_model_type"),
         (("max_particles: 900", "max_particles: 9"), "max_particles 9 is below min_particles 500"),
         (('"likelihood_field"', '"likelihood_field_prob"\n    do_beamskip: true'), "skipping beams is not implemented"),
-        (("amcl:", "bmcl:"), "has no parameters of `amcl`"),
+        (("amcl:", "bmcl:"), r"no parameters of the node 'amcl' \(it has those of bmcl\)"),
     ],
 )
 def test_a_mistake_is_one_line(tmp_path, change, message):

@@ -1,5 +1,7 @@
 """The metric `people` on encounters counted by hand."""
 
+import math
+
 import attrs
 import numpy as np
 import pytest
@@ -119,6 +121,7 @@ def test_hunavsim_s_measures_are_those_of_a_hand_count(met):
         ((1, -1), (0, 1), (-0.516821, 0.516821)),
         ((1, 0), (0.5, 0), (-0.503267, 0)),
         ((0, 0.7), (1, 0), (0, -0.284204)),
+        ((1, 0), (1.3, 0), (-2.1 * math.exp(-1 / (0.35 * 0.4)), 0)),  # who goes ahead and is faster hardly matters
     ],
 )
 def test_the_social_force_is_that_of_lightsfm(place, velocity, expected):

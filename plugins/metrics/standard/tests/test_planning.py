@@ -36,7 +36,13 @@ def test_counts_of_planner_and_validator_are_passed_on(planned):
 
 @pytest.mark.parametrize(
     ("bound", "path", "expected"),
-    [(math.nan, TO_THE_END, None), (0.0, TO_THE_END, None), (0.0, AT_HOME, 1.0), (5.0, TO_THE_END, 1.0)],
+    [
+        (math.nan, TO_THE_END, None),
+        (0.0, TO_THE_END, None),
+        (0.0, AT_HOME, 1.0),
+        (5.0, TO_THE_END, 1.0),
+        (0.5, TO_THE_END, 10.0),
+    ],
 )
 def test_suboptimality_is_never_nan_or_infinite(planned, bound, path, expected):
     assert Planning().measure(planned([path], [0], lower_bound=bound))["suboptimality"] == expected

@@ -15,16 +15,10 @@ from mrpbench_core.builtin.task_sources.listed import ListedStream
 from mrpbench_core.checking.well_formed import ill_formed
 from mrpbench_core.model.planning.plan import Paths
 from mrpbench_core.model.planning.scenario import Task
-from mrpbench_core.testing import PlannerConformance
 from mrpbench_core.testing.execution.task_steps import BUDGET, TaskSteps, until_done
 from mrpbench_core.testing.instances.problems import grid_of, problem_on
 
 ROOM = grid_of([".......", ".#.#.#.", ".......", ".#.#.#.", "......."])
-
-
-class TestTokenPassing(PlannerConformance):
-    def make(self):
-        return TokenPassing()
 
 
 @st.composite

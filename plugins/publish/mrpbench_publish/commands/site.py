@@ -102,7 +102,7 @@ def _verdict(file: Path, sha256: str) -> Mapping[str, Any]:
     try:
         found = json.loads(read_text(stored))
     except (ValueError, RecursionError):
-        raise InputError("is no verdict", file=stored, hint="`mrpbench verify --out` writes it") from None
+        raise InputError("is not a verdict", file=stored, hint="`mrpbench verify --out` writes it") from None
     if not isinstance(found, dict) or found.get("sha256") != sha256:
         raise InputError(f"is not the verdict of {file.name}", file=stored, hint="verify the bundle again")
     return found

@@ -18,7 +18,7 @@ LONGEST = 240
 """Characters of the name of a file in a bundle."""
 _BLOCK = 2**20
 _DATE = (1980, 1, 1, 0, 0, 0)
-"""The earliest time that a zip file can hold: times of files are no part of a bundle."""
+"""The earliest time that a zip file can hold: times of files are not a part of a bundle."""
 
 
 def pack(out: Path, files: Mapping[str, Path | bytes], programs: frozenset[str] = frozenset()) -> None:
@@ -62,7 +62,7 @@ def unpack(file: Path, folder: Path, *, programs: bool = False) -> None:
         programs: make the files executable that the bundle marks so.
 
     Raises:
-        InputError: it is no zip file, it is damaged, or an entry of it could leave the folder, is a link, is there
+        InputError: it is not a zip file, it is damaged, or an entry of it could leave the folder, is a link, is there
             twice, or takes more space than a bundle may.
     """
     try:
@@ -119,7 +119,7 @@ def _entry_fault(entry: zipfile.ZipInfo) -> str | None:
     if "\\" in name or ":" in name or not name.isprintable() or len(name) > LONGEST:
         return "has a name that not every system can store"
     if stat.S_IFMT(mode) not in (0, stat.S_IFREG):
-        return "is a link" if stat.S_ISLNK(mode) else "is no file"
+        return "is a link" if stat.S_ISLNK(mode) else "is not a file"
     if entry.flag_bits & 1:
         return "is encrypted"
     if entry.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):  # others decompress without a bound

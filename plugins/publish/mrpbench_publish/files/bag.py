@@ -68,7 +68,7 @@ def _listed(folder: Path, manifest: str, expected: set[str]) -> Iterator[str]:
     for number, line in enumerate(read_text(folder / manifest).splitlines(), 1):
         found = _LINE.fullmatch(line)
         if found is None or _decoded(found[2]) in sums:
-            yield f"{manifest}:{number} is no line of a manifest, or repeats one"
+            yield f"{manifest}:{number} is not a line of a manifest, or repeats one"
         else:
             sums[_decoded(found[2])] = found[1]
     for name in sorted(expected - sums.keys()):

@@ -140,7 +140,7 @@ def read_description(text: bytes) -> Description:
     """Return what a crate says about its publisher; the result gives the same crate again if nothing was changed.
 
     Raises:
-        ValueError: it is no crate that `Description.crate` writes.
+        ValueError: it is not a crate that `Description.crate` writes.
     """
     try:
         graph = {entity["@id"]: entity for entity in json.loads(text)["@graph"]}
@@ -163,7 +163,7 @@ def read_description(text: bytes) -> Description:
     except (KeyError, TypeError, AttributeError, IndexError, RecursionError) as error:
         raise ValueError(f"{type(error).__name__} {error}") from None
     if not all(isinstance(word, str) for word in (found.title, found.text, *(author.name for author in found.authors))):
-        raise ValueError("title, text or names are no text")
+        raise ValueError("title, text or names are not text")
     return found
 
 

@@ -111,8 +111,8 @@ def _index(entries: Sequence[Entry], boards: Sequence[Board]) -> str:
     ]
     heads = ("board", "configurations", "runs", "result")
     return (
-        f"<h2>Boards</h2><p>A board has the configurations that ran on the same scenarios. What paired tests"
-        f" do not decide is not told apart.</p>{_table('boards', heads, rows)}"
+        f"<h2>Boards</h2><p>A board has the configurations that ran on the same scenarios. Where paired"
+        f" tests decide nothing, there is no clear difference.</p>{_table('boards', heads, rows)}"
         f"<h2>Bundles</h2>{_bundles(entries)}{_rules()}"
     )
 
@@ -122,7 +122,7 @@ def _leaders(board: Board) -> str:
     found = [(column, board.leaders(place)) for place, column in enumerate(board.columns)]
     decided = [(column, names) for column, names in found if 0 < len(names) < len(board.rows)]
     if not decided:
-        return "Nothing is told apart." if len(board.rows) > 1 else ""
+        return "No clear differences." if len(board.rows) > 1 else ""
     words = (f"First in <b>{escape(column.name)}</b>: {escape(_either(names))}" for column, names in decided)
     return "<br>".join(words)
 

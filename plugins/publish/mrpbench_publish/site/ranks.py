@@ -1,9 +1,9 @@
 """Ranks of groups, as far as the paired comparisons decide them.
 
-A group is behind those that are shown to be better and ahead of those that are shown to be worse; all others it is not
-told apart from. So a rank is a range: M. Mogstad, J. P. Romano, A. M. Shaikh, D. Wilhelm, "Inference for Ranks with
-Applications to Mobility across Neighbourhoods and Academic Achievement across Countries", Review of Economic Studies
-91, 2024. Their construction for one population is used here, with the tests of reports and Holm's correction.
+A group is behind those that are shown to be better and ahead of those that are shown to be worse; to all others there
+is no clear difference. So a rank is a range: M. Mogstad, J. P. Romano, A. M. Shaikh, D. Wilhelm, "Inference for Ranks
+with Applications to Mobility across Neighbourhoods and Academic Achievement across Countries", Review of Economic
+Studies 91, 2024. Their construction for one population is used here, with the tests of reports and Holm's correction.
 """
 
 from collections.abc import Iterable, Sequence
@@ -30,7 +30,7 @@ class Rank:
 
     def __str__(self) -> str:
         if self.decides_nothing and self.among > 1:
-            return "not told apart"
+            return "no clear difference"
         return str(self.best) if self.best == self.worst else f"{self.best}–{self.worst}"
 
 

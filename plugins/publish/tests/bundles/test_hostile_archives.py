@@ -25,7 +25,7 @@ def entry(name, mode=0o100644):
         ("/etc/escaped.txt", 0o100644, "does not stay in its folder"),
         ("{top}/data/../../escaped.txt", 0o100644, "does not stay in its folder"),
         ("{top}/data/link", 0o120777, "is a link"),
-        ("{top}/data/pipe", 0o010644, "is no file"),
+        ("{top}/data/pipe", 0o010644, "is not a file"),
         ("{top}/data\\inputs", 0o100644, "has a name that not every system can store"),
         ("{top}/data/STUDY.yaml", 0o100644, "is there twice"),
         ("{top}/data/study.yaml/more", 0o100644, "is below a file"),

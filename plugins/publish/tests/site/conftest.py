@@ -52,7 +52,7 @@ def record(planner, seed, more):
 
 @pytest.fixture(scope="package")
 def boards(tmp_path_factory):
-    """Return the boards of two planners that differ and one that cannot be told apart from the first."""
+    """Return the boards of two planners that differ and one that does not clearly differ from the first."""
     records = [
         record(planner, seed, more)
         for planner, more in (("cbs", 0.0), ("pbs", 0.0), ("<b>bad</b>", 5.0))

@@ -12,7 +12,7 @@ def test_a_board_ranks_only_what_is_told_apart(boards):
     ranks = {row.name: str(row.cells[place].rank) for row in board.rows}
     assert ranks == {"cbs": "1–2", "pbs": "1–2", "<b>bad</b>": "3"}
     assert board.leaders(place) == ("cbs", "pbs")
-    assert board.leaders(0) == ("cbs", "pbs", "<b>bad</b>")  # in success nothing is told apart
+    assert board.leaders(0) == ("cbs", "pbs", "<b>bad</b>")  # in success there are no clear differences
 
 
 def test_the_numbers_are_also_plain_data(site, boards):

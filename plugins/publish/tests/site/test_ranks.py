@@ -28,12 +28,12 @@ def _shown(monkeypatch):
 
 def test_without_a_shown_difference_nothing_is_told_apart():
     found = rank_groups(NAMES, [comparison("a", "b", 0.0)])
-    assert set(map(str, found.values())) == {"not told apart"}
+    assert set(map(str, found.values())) == {"no clear difference"}
 
 
 def test_each_shown_difference_narrows_two_ranks():
     found = rank_groups(NAMES, [comparison("a", "b", 2.0)])
-    assert {name: str(rank) for name, rank in found.items()} == {"a": "1–2", "b": "2–3", "c": "not told apart"}
+    assert {name: str(rank) for name, rank in found.items()} == {"a": "1–2", "b": "2–3", "c": "no clear difference"}
 
 
 def test_more_is_better_where_the_column_says_so():

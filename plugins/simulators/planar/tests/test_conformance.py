@@ -4,11 +4,6 @@ from mrpbench_simulators_planar import Planar
 from mrpbench_core.testing import SimulatorConformance
 
 
-class TestPlanar(SimulatorConformance):
-    def make(self):
-        return Planar()
-
-
 class TestWithSlipAndNoise(SimulatorConformance):
     def make(self):
         return Planar(slip=0.01, actuation_noise=0.01)

@@ -1,14 +1,10 @@
 import pytest
 from mrpbench_simulators_pybullet import PyBullet
 
-from mrpbench_core.testing import SimulatorConformance
+from mrpbench_core.testing import SimulatorConformance, run_check
+from mrpbench_core.testing.checks import methods
 
 pytest.importorskip("pybullet", reason="PyBullet has no wheel for this Python")
-
-
-class TestWheels(SimulatorConformance):
-    def make(self):
-        return PyBullet()
 
 
 class TestBodies(SimulatorConformance):
@@ -16,6 +12,11 @@ class TestBodies(SimulatorConformance):
         return PyBullet(model="body")
 
 
-class TestRayTests(SimulatorConformance):
+class RayTests(SimulatorConformance):
     def make(self):
         return PyBullet(lidar="pybullet")
+
+
+def test_ray_tests_keep_the_contract_of_scans():
+    found = [run_check(RayTests(), method) for method in methods(RayTests) if method.startswith("test_scans_")]
+    assert [check.outcome for check in found] == ["ok"] * 2

@@ -1,6 +1,7 @@
 """Robots on the wheels of their URDF: a cart of our own with a caster, a mesh, and one wheel mounted in reverse."""
 
 import math
+from itertools import combinations
 from pathlib import Path
 
 import attrs
@@ -120,10 +121,170 @@ def test_a_body_larger_than_the_footprint_is_refused():
         drive([[0, 0]], 0, robot=short)
 
 
-def test_a_mesh_that_is_none_is_one_line(tmp_path):
-    for name in ("cart.yaml", "cart.urdf"):
-        (tmp_path / name).write_text((FOLDER / name).read_text().replace("cap.obj", "cap.xyz"))
-    (tmp_path / "cap.xyz").write_text("nothing")
-    robot = load_robot("cart.yaml", tmp_path)
-    with pytest.raises(InputError, match=r"cart\.urdf: PyBullet cannot load this URDF \(meshes must be"):
+BODY = '<box size="0.40 0.26 0.12"/>'
+CORNERS = np.array([(x, y, z) for x in (-0.2, 0.2) for y in (-0.13, 0.13) for z in (-0.06, 0.06)])
+TRIANGLES = CORNERS[list(combinations(range(8), 3))]
+"""Triangles whose convex hull is the body; 24 of them lie on its faces."""
+
+
+WORLD = '<link name="world"/><joint name="j" type="fixed"><parent link="world"/><child link="base_link"/></joint>'
+
+
+def changed(folder, *changes):
+    """The cart with changes (old, new) of its URDF."""
+    text = (FOLDER / "cart.urdf").read_text()
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new, 1)
+    (folder / "cart.urdf").write_text(text)
+    for name in ("cap.obj", "cart.yaml"):
+        (folder / name).write_bytes((FOLDER / name).read_bytes())
+    return load_robot("cart.yaml", folder)
+
+
+def stl(header=b"", after=b""):
+    records = b"".join(bytes(12) + corners.astype("<f4").tobytes() + bytes(2) for corners in TRIANGLES)
+    return header.ljust(80) + len(TRIANGLES).to_bytes(4, "little") + records + after
+
+
+def stl_text():
+    facets = [
+        "facet normal 0 0 0\n outer loop\n"
+        + "".join(f"  vertex {x:e} {y:e} {z:e}\n" for x, y, z in corners)
+        + " endloop\nendfacet\n"
+        for corners in TRIANGLES
+    ]
+    return ("solid body\n" + "".join(facets) + "endsolid body\n").encode()
+
+
+def obj():
+    lines = [f"v {x} {y} {z}" for x, y, z in CORNERS]
+    lines += [f"f {a + 1}//1 {b - 8} {c + 1}" for a, b, c in combinations(range(8), 3)]
+    return "\n".join(lines).encode()
+
+
+def dae(primitive="triangles"):
+    indices = " ".join(str(corner) for corners in combinations(range(8), 3) for corner in corners)
+    return f"""<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+      <library_geometries><geometry id="g"><mesh>
+        <source id="p"><float_array id="a" count="24">{" ".join(map(str, CORNERS.ravel()))}</float_array>
+          <technique_common><accessor source="#a" count="8" stride="3"/></technique_common></source>
+        <vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+        <{primitive} count="56"><input semantic="VERTEX" source="#v" offset="0"/><p>{indices}</p></{primitive}>
+      </mesh></geometry></library_geometries>
+      <library_visual_scenes><visual_scene id="s"><node><instance_geometry url="#g"/></node></visual_scene>
+      </library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>""".encode()
+
+
+MOVED = b"""<node id="n"><translate>0 0 7</translate><rotate>0 0 1 90</rotate><scale>0.5 1 1</scale></node>
+  <node id="m"><matrix>0 1 0 0  -1 0 0 0  0 0 1 0  0 0 0 1</matrix><rotate>0 0 2 90</rotate>"""
+"""Transforms of nodes; those of the second, which has the body, cancel one another."""
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("body.stl", stl()),
+        ("body.STL", stl(b"solid by an exporter")),
+        ("body.stl", stl(after=b"colours")),
+        ("body.stl", stl_text()),
+        ("body.Stl", stl_text().upper().replace(b"\n", b"\r\n")),
+        ("body.obj", obj()),
+        ("body.dae", dae()),
+        ("body.DAE", dae("polylist").replace(b"<node>", MOVED)),
+    ],
+)
+def test_a_mesh_of_any_kind_is_solid(tmp_path, name, content):
+    (tmp_path / name).write_bytes(content)
+    robot = changed(tmp_path, (BODY, f'<mesh filename="{name}" scale="-1 1 1"/>'))
+    ahead = World(name="wall", levels=(Level(name="L1", walls=[[0.5, -2, 0.5, 2]]),))
+    pose, _, contacts = drive([[0.4, 0.0]], 2, [[0, 0, 0]], ahead, robot)
+    assert contacts[-1] == [[0, -1]]
+    assert pose[-1, 0, 0] == pytest.approx(0.5 - 0.05 - 0.18, abs=0.01)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "message"),
+    [
+        ("body.xyz", b"nothing", r"body\.xyz: PyBullet cannot read this mesh \(meshes must be \.obj, \.stl or \.dae\)"),
+        ("body.stl", b"", r"body\.stl: is not an STL"),
+        ("body.stl", stl()[:200], "is not an STL"),
+        ("body.stl", bytes(84), "is not an STL"),
+        ("body.stl", b"solid nothing\nendsolid", "has no triangles"),
+        ("body.stl", stl_text().replace(b"vertex 2.0", b"vertex x2.0", 1), "vertex that is not three finite numbers"),
+        ("body.stl", stl().replace(CORNERS[:1].astype("<f4").tobytes(), b"\xff" * 12), "not three finite numbers"),
+        ("body.obj", obj().partition(b"f ")[0], r"body\.obj: has no faces"),
+        ("body.obj", obj() + b"\nf 1 2 9", "a face has the vertex '9' of 8"),
+        ("body.obj", obj() + b"\nf 1 2 0", "a face has the vertex '0' of 8"),
+        ("body.dae", b"<COLLADA/>", r"body\.dae: has no triangles"),
+        ("body.dae", dae()[:-9], "is not XML"),
+        ("body.dae", dae("lines"), "has no triangles"),
+        ("body.dae", dae().replace(b'id="p"', b'id="q"'), "has nothing with the id 'p'"),
+        ("body.dae", dae().replace(b"<p>", b"<p>8 "), "a face has a corner beyond its 8 points"),
+        ("body.dae", dae().replace(b"<p>", b"<p>x "), "has 'x 0 1 2 .*' instead of finite numbers"),
+        ("body.dae", dae().replace(b"POSITION", b"COLOR"), "has faces without positions"),
+        ("body.dae", dae().replace(b"instance_geometry", b"instance_camera"), "has no triangles"),
+    ],
+)
+def test_a_mesh_that_pybullet_does_not_read_is_one_line(tmp_path, name, content, message):
+    (tmp_path / name).write_bytes(content)
+    robot = changed(tmp_path, (BODY, f'<mesh filename="{name}"/>'))
+    with pytest.raises(InputError, match=message) as caught:
         drive([[0, 0]], 0, robot=robot)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        (BODY, "", r"cart\.urdf: a collision of the link 'base_link' has no shape \(shapes: box, sphere"),
+        (BODY, '<ellipsoid size="1 1 1"/>', "has the shape 'ellipsoid'"),
+        (BODY, "<box/>", "the size of a box of the link 'base_link' is not positive"),
+        (BODY, '<box size="0.4 0.2"/>', "size='0.4 0.2' of a 'box' must be 3 numbers"),
+        (BODY, '<box size="0.4,0.2,0.1"/>', "must be 3 numbers"),
+        (BODY, '<box size="0.4 -0.2 0.1"/>', "the size of a box of the link 'base_link' is not positive"),
+        (BODY, '<cylinder radius="0.1"/>', "the length of a cylinder of the link 'base_link' is not positive"),
+        ("0.001 0.001 0.001", "0.001", "scale='0.001' of a 'mesh' must be 3 numbers"),
+        ("0.001 0.001 0.001", "0.001 0 0.001", "the scale of a mesh of the link 'cap' is 0"),
+        ("-0.02 0 0.03", "-0.02 0", "xyz='-0.02 0' of a 'origin' must be 3 numbers"),
+        ('rpy="0 0 0.3"', 'rpy="x"', "rpy='x' of a 'origin' must be 3 numbers"),
+        ('mass value="0.6"', 'mass value="-0.6"', "the mass of the link 'left_wheel' is negative"),
+        ('mass value="8"', 'mass value="0"', "only its driven wheels have mass"),
+        ('ixx="0.08"', 'ixx="light"', "ixx='light' of a 'inertia' must be a number"),
+    ],
+)
+def test_a_value_that_pybullet_takes_for_another_is_one_line(tmp_path, old, new, message):
+    with pytest.raises(InputError, match=message):
+        drive([[0, 0]], 0, robot=changed(tmp_path, (old, new)))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        ('name="cart"', ""),
+        ("left_wheel", "left'][wheel"),
+        ('<joint name="caster_joint" type="fixed">', '<joint name="caster_joint" type="floating">'),
+        ('<joint name="cap_joint" type="fixed">', '<joint name="cap_joint" type="revolute">'),
+        ('ixy="0" ixz="0" iyz="0"', ""),
+        (
+            '<link name="base_link">',
+            WORLD.replace("/>", "><inertial><mass value='0'/></inertial></link>", 1) + '<link name="base_link">',
+        ),
+        ('<link name="base_link">', f'{WORLD}<link name="base_link">'),
+    ],
+)
+def test_what_is_sound_in_other_urdfs_drives(tmp_path, change):
+    changes = [change, ('child link="left_wheel"', 'child link="left\'][wheel"')][: 2 if "][" in change[1] else 1]
+    pose, _, _ = drive([[0.4, 0.0]], 2, [[0, 0, 0]], robot=changed(tmp_path, *changes))
+    assert pose[-1, 0, 0] == pytest.approx(0.8 - 0.4**2 / 2, abs=0.02)
+
+
+@pytest.mark.parametrize("name", ["07-urdf-two-roots-segv/u14.yaml", "08-urdf-ascii-stl/u07b.yaml"])
+def test_urdfs_that_crashed_or_stood_drive_or_are_refused(shared_data, name):
+    file = shared_data / "cases" / name
+    if name.startswith("07"):
+        with pytest.raises(InputError, match=r"u14\.urdf: has 2 root links, 'base_link', 'world'"):
+            load_robot(file.name, file.parent)
+        return
+    pose, _, _ = drive([[0.4, 0.0]], 2, [[0, 0, 0]], robot=load_robot(file.name, file.parent))
+    assert pose[-1, 0, 0] > 0.6

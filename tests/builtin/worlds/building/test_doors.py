@@ -45,6 +45,13 @@ def test_how_a_door_moves_is_kept(load):
     assert (door.motion_axis, door.motion_direction, door.motion_degrees, door.right_left_ratio) == ("end", -1, 75, 2)
 
 
+@pytest.mark.parametrize("word", ["End", "middle", "none"])
+def test_an_axis_other_than_the_start_is_the_end(load, word):
+    world = load(DOOR % f"motion_axis: [1, {word}]")
+    assert world.levels[0].doors[0].motion_axis == "end"
+    assert world.notes == (f"door motion_axis {word!r} is neither start nor end and is treated as end.",)
+
+
 SHEET = """\
 levels:
   L1:

@@ -132,7 +132,6 @@ def test_metres_and_degrees_load_and_make_a_grid(tmp_path, fleet, system):
         ("level_doors:\n      1: [front]", "level_doors:\n      2: [front]", "no level '2'"),
         ("G: [front]", "G: [back]", "opens the door 'back' on level 'G'"),
         ("width: 1.6", "width: 0", "width should be positive"),
-        ("motion_axis: [1, end], name", "motion_axis: [1, middle], name", "'motion_axis' should be start or end"),
         ("[16, 17, {bidirectional: [4, true], demo", "[16, 99, {bidirectional: [4, true], demo", "lane to vertex 99"),
         ("reference_floor_name: G", "reference_floor_name: [G]", "should be text"),
         ("elevation: 3.5", "elevation: high", "should be a number"),

@@ -62,8 +62,6 @@ def test_a_lift_of_one_loaded_level_or_none_is_cut_or_noted(load):
         ("U: [front, back]}", "U: [side]}", "opens the door 'side' on level 'U', which it does not have"),
         ("level_doors: {G:", "level_doors: {X:", "no level 'X' (levels: G, U, V)"),
         ("x: 5, y", "x: here, y", "should be a number"),
-        ("U: [front, back]}", "U: []}", "lift 'up' has no door on level 'U' (doors: front, back)"),
-        (", U: [front, back]}", "}", "lift 'up' serves 1 level, but a lift needs at least two"),
         ("initial_floor_name: U", "initial_floor_name: X", "no level 'X' (levels: G, U, V)"),
         ("highest_floor: U", "highest_floor: X", "no level 'X' (levels: G, U, V)"),
     ],
@@ -74,6 +72,14 @@ def test_a_mistake_is_named_with_its_line(load, old, new, message):
         load(TOWER.replace(old, new))
     assert message in str(caught.value)
     assert caught.value.line >= 8
+
+
+def test_a_lift_that_serves_fewer_than_two_levels_is_noted(load):
+    for doors, note in (("U: []}", "'up' has no door on level 'U' and does not stop there"), ("}", None)):
+        world = load(TOWER.replace("U: [front, back]}", doors))
+        assert world.lifts == ()
+        assert any("'up' serves 1 level and is left out" in found for found in world.notes)
+        assert note is None or any(note in found for found in world.notes)
 
 
 SECOND = """
@@ -89,6 +95,23 @@ def test_lifts_in_one_shaft_are_refused(load, x, yaw, levels):
     with pytest.raises(InputError, match="lifts 'up' and 'side' are in the same shaft") as caught:
         load(TOWER + SECOND % (x, yaw, *levels))
     assert caught.value.line == 15
+
+
+def test_a_lift_drawn_twice_is_one_that_serves_all_levels(load):
+    lift = TOWER.partition("lifts:\n")[2]
+    other = (
+        lift.replace("up:", "cargo:").replace("x: 5,", "x: 5.05,").replace("U: [front, back]", "U: [front], V: [back]")
+    )
+    for text in (TOWER + other, TOWER.replace(lift, other + lift)):
+        world = load(text)
+        (one,) = world.lifts
+        assert (one.name, sorted(one.levels), one.initial_level) == ("cargo", [0, 1, 2], 1)
+        assert [(door.name, sorted(levels)) for door, levels in zip(one.doors, one.door_levels, strict=True)] == [
+            ("front", [0, 1]),
+            ("back", [1, 2]),
+        ]
+        assert sum("have the same cabin and doors and are one" in note for note in world.notes) == 1
+        assert {vertex.lift for vertex in world.vertices} == {"", "cargo"}
 
 
 @pytest.mark.parametrize(("x", "yaw", "levels"), [(7, 0, "GU"), (7.3, 0.8, "GU"), (5, 0, "VW")])

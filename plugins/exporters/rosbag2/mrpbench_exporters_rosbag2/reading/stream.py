@@ -111,7 +111,9 @@ class Stream:
             if not files:
                 if (self.path / "metadata.yaml").is_file():
                     raise
-                raise InputError("is no rosbag2", file=self.path, hint="give the folder with metadata.yaml") from error
+                raise InputError(
+                    "is not a rosbag2", file=self.path, hint="give the folder with metadata.yaml"
+                ) from error
         readers = []
         for file in files:
             if file != self.path:

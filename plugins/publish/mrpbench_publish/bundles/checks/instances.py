@@ -13,9 +13,9 @@ from mrpbench_core.api.metric import Metric
 from mrpbench_core.config.structure import Structure
 from mrpbench_core.config.unpacking import unpack
 from mrpbench_core.engine.json_values import jsonable
+from mrpbench_core.engine.prepare.make_instance import build_run_instance, make_instance
+from mrpbench_core.engine.prepare.question import SETTINGS, Question
 from mrpbench_core.engine.stage import RunEnded, ignore
-from mrpbench_core.engine.stages.prepare import build_run_instance, make_instance
-from mrpbench_core.engine.stages.question import SETTINGS, Question
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.plugins.local import refuse_local

@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from mrpbench_core.engine.stages.plan import LATE_S
+from mrpbench_core.engine.drive.plan import LATE_S
 from mrpbench_core.model.runs.status import PLANNED, RunStatus, Stage
 from mrpbench_publish.bundles.opened import Opened, Stored
 from mrpbench_publish.bundles.verdict import Fault

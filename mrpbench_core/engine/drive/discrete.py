@@ -2,6 +2,7 @@
 
 import math
 import time
+from typing import cast
 
 import numpy as np
 
@@ -9,11 +10,11 @@ from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.discrete import DiscreteResult, DiscreteRun, DiscreteSimulator
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.engine.contract_checks import check_returned
+from mrpbench_core.engine.drive.execute import call_timing
+from mrpbench_core.engine.drive.export import Exports
+from mrpbench_core.engine.drive.plan import budget_of
 from mrpbench_core.engine.execution.recorder import IRREGULAR, TASKS
 from mrpbench_core.engine.stage import RunEnded, RunInputs
-from mrpbench_core.engine.stages.execute import call_timing
-from mrpbench_core.engine.stages.export import Exports
-from mrpbench_core.engine.stages.plan import budget_of
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.runs.status import Stage
 from mrpbench_core.store.recording import RecordingWriter
@@ -22,8 +23,7 @@ from mrpbench_core.store.recording import RecordingWriter
 def execute_steps(inputs: RunInputs, context: RunContext, stream: TaskStream) -> tuple[RunEnded | None, dict[str, str]]:
     """Execute the tasks of a run; returns what `execute_plan` returns."""
     config, timing = inputs.config, inputs.timing
-    simulator = config.simulator
-    assert isinstance(simulator, DiscreteSimulator)
+    simulator = cast("DiscreteSimulator", config.simulator)
     inputs.announce(Stage.EXECUTION, {})
     limit = min(config.replanning.budget or math.inf, config.limits.planning)
     run = DiscreteRun(

@@ -3,7 +3,7 @@
 import pytest
 
 from mrpbench_core.config.settings import FleetEntry, LidarOptions
-from mrpbench_core.engine.stages.fleet import build_fleet
+from mrpbench_core.engine.prepare.fleet import build_fleet
 from mrpbench_core.files.errors import InputError
 
 

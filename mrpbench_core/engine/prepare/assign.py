@@ -9,9 +9,9 @@ from mrpbench_core.api.assigner import Assigner, AssignmentError
 from mrpbench_core.checking.assignment import check_assignment
 from mrpbench_core.checking.scenario import check_travel
 from mrpbench_core.engine.contract_checks import check_returned
+from mrpbench_core.engine.prepare.costs import cost_matrix
+from mrpbench_core.engine.prepare.run_instance import RunInstance, summary
 from mrpbench_core.engine.stage import Announce, RunEnded
-from mrpbench_core.engine.stages.costs import cost_matrix
-from mrpbench_core.engine.stages.run_instance import RunInstance, summary
 from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem
 from mrpbench_core.model.runs.status import RunStatus, Stage
 

@@ -10,7 +10,7 @@ import pytest
 
 from mrpbench_core.api import Planner, Promise
 from mrpbench_core.config.study import load_study
-from mrpbench_core.engine.stages.plan import budget_of, call_planner
+from mrpbench_core.engine.drive.plan import budget_of, call_planner
 from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.referee.plans import Promises, judge_plan

@@ -13,6 +13,8 @@ from mrpbench_core.api.simulator import Simulation
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.contract_checks import check_returned
+from mrpbench_core.engine.drive.export import Exports
+from mrpbench_core.engine.drive.plan import budget_of, call_planner
 from mrpbench_core.engine.execution.crowds import Crowds
 from mrpbench_core.engine.execution.destinations import Places
 from mrpbench_core.engine.execution.draws import Draws
@@ -32,8 +34,6 @@ from mrpbench_core.engine.execution.task_manager import TaskManager
 from mrpbench_core.engine.execution.worst_case import Adversary
 from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.engine.stage import RunEnded, RunInputs
-from mrpbench_core.engine.stages.export import Exports
-from mrpbench_core.engine.stages.plan import budget_of, call_planner
 from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.execution.motion import Event
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus

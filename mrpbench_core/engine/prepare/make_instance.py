@@ -11,12 +11,12 @@ from mrpbench_core.checking.doorways import check_doorways
 from mrpbench_core.config.identity import options_text
 from mrpbench_core.config.settings import FleetEntry
 from mrpbench_core.engine.contract_checks import check_drawn, check_made, check_returned, check_size
+from mrpbench_core.engine.prepare.assign import assign
+from mrpbench_core.engine.prepare.fleet import build_fleet
+from mrpbench_core.engine.prepare.problem_building import build_problem, standing_problem
+from mrpbench_core.engine.prepare.question import Question
+from mrpbench_core.engine.prepare.run_instance import RunInstance, summary
 from mrpbench_core.engine.stage import Announce, RunEnded
-from mrpbench_core.engine.stages.assign import assign
-from mrpbench_core.engine.stages.fleet import build_fleet
-from mrpbench_core.engine.stages.problem_building import build_problem, standing_problem
-from mrpbench_core.engine.stages.question import Question
-from mrpbench_core.engine.stages.run_instance import RunInstance, summary
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.roadmap import Roadmap

@@ -7,9 +7,9 @@ from mrpbench_core.api.assigner import Assigner
 from mrpbench_core.checking.scenario import check_reach, check_scenario, check_travel
 from mrpbench_core.engine.execution.destinations import Errand, Places
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
+from mrpbench_core.engine.prepare.costs import cost_matrix
+from mrpbench_core.engine.prepare.run_instance import RunInstance, summary
 from mrpbench_core.engine.stage import RunEnded
-from mrpbench_core.engine.stages.costs import cost_matrix
-from mrpbench_core.engine.stages.run_instance import RunInstance, summary
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.goals import first_problem, goal_yaws

@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.engine.stages.problem_building import problem_with_features
+from mrpbench_core.engine.prepare.problem_building import problem_with_features
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.goals import goal_vertices
 from mrpbench_core.model.planning.problem import Feature

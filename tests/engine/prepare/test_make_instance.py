@@ -6,9 +6,9 @@ import pytest
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.builtin.worlds.shipped import Office
 from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.prepare.make_instance import build_run_instance
+from mrpbench_core.engine.prepare.question import Question
 from mrpbench_core.engine.stage import ignore
-from mrpbench_core.engine.stages.prepare import build_run_instance
-from mrpbench_core.engine.stages.question import Question
 
 STUDY = {"world": "office", "scenario": {"plugin": "random", "robots": 2}, "planner": "example", "simulator": "none"}
 STUDY |= {"roadmap": {"plugin": "grid", "cell_size": 1.0}}

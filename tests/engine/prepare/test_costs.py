@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mrpbench_core.engine.stages.costs import cost_matrix
+from mrpbench_core.engine.prepare.costs import cost_matrix
 from mrpbench_core.engine.travel import travel_ticks
 from mrpbench_core.model.common.fleet import Fleet, RobotModel
 from mrpbench_core.model.planning.roadmap import Roadmap

@@ -5,7 +5,7 @@ What this process says of the run is a claim: `mrpbench_core.referee` judges the
 
 import math
 from collections.abc import Mapping
-from typing import Any, Self
+from typing import Any, Self, cast
 
 import attrs
 import numpy as np
@@ -13,12 +13,12 @@ import numpy as np
 from mrpbench_core.api.discrete import DiscreteSimulator
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.checking.plan_result import result_fault
+from mrpbench_core.engine.drive.discrete import execute_steps
+from mrpbench_core.engine.drive.execute import execute_plan
+from mrpbench_core.engine.drive.plan import LATE_S, budget_of, call_planner
+from mrpbench_core.engine.drive.tasks import places_of, start_stream
 from mrpbench_core.engine.execution.replanning import replanning_fault
 from mrpbench_core.engine.stage import RunEnded, RunInputs
-from mrpbench_core.engine.stages.discrete import execute_steps
-from mrpbench_core.engine.stages.execute import execute_plan
-from mrpbench_core.engine.stages.plan import LATE_S, budget_of, call_planner
-from mrpbench_core.engine.stages.tasks import places_of, start_stream
 from mrpbench_core.files.codec import decode
 from mrpbench_core.files.printing import printable
 from mrpbench_core.model.execution.route import Route
@@ -90,7 +90,8 @@ def _drive(inputs: RunInputs, instance: Instance, claims: Claims) -> None:
         RunEnded: the run did not succeed.
     """
     config = inputs.config
-    if reason := replanning_fault(config):
+    executes_runs = config.simulator is not None and config.simulator.executes_runs
+    if not executes_runs and (reason := replanning_fault(config)):
         raise RunEnded(RunStatus.SKIPPED, Stage.PLANNING, reason)
     stream = start_stream(config, instance)
     result = _plan(inputs, instance.problem) if stream is None else _stand(inputs, instance, stream)
@@ -103,7 +104,7 @@ def _drive(inputs: RunInputs, instance: Instance, claims: Claims) -> None:
         if failure is not None:
             raise failure
         return
-    if isinstance(config.simulator, DiscreteSimulator):
+    if executes_runs:
         assert stream is not None
         failure, claims.unexported = execute_steps(inputs, context, stream)
     else:
@@ -136,8 +137,9 @@ def _stand(inputs: RunInputs, instance: Instance, stream: TaskStream) -> PlanRes
     """
     config, problem = inputs.config, instance.problem
     inputs.announce(Stage.PLANNING, {"limit_s": config.limits.planning})
-    if isinstance(config.simulator, DiscreteSimulator):
-        reason = config.simulator.skip(config.planner)
+    assert config.simulator is not None
+    if config.simulator.executes_runs:
+        reason = cast("DiscreteSimulator", config.simulator).skip(config.planner)
     else:
         asked = attrs.evolve(problem, features=problem.features | {Feature.COMMITMENTS})
         reason = config.planner.skip(asked) or config.planner.skip_tasks(problem, places_of(stream, instance))
@@ -158,11 +160,30 @@ def _checked(inputs: RunInputs, problem: Problem, result: PlanResult) -> tuple[P
         return result, RunEnded(RunStatus.PLAN_INVALID, Stage.PLANNING, fault)
     if result.plan is not None:
         return result, None
-    limit, spent = config.limits.planning, inputs.timing["planning_s"]
-    said = f"the planner ended with {result.status}"
-    if result.status == PlanStatus.TIMEOUT and spent > limit + LATE_S:
-        said = f"returned after {spent:.3f} s; the limit is {limit:g} s"
-    return result, RunEnded(STATUS[result.status], Stage.PLANNING, said)
+    return result, RunEnded(STATUS[result.status], Stage.PLANNING, _unsolved(inputs, problem, result))
+
+
+_BLAMES = {
+    PlanStatus.GAVE_UP: "gave up: it last found no path for",
+    PlanStatus.UNSOLVABLE: "proved that there is no plan, because of",
+}
+"""How a planner ended that names a robot."""
+
+
+def _unsolved(inputs: RunInputs, problem: Problem, result: PlanResult) -> str:
+    """Why there is no plan."""
+    limits, timing = inputs.config.limits, inputs.timing
+    if result.status == PlanStatus.TIMEOUT and timing["planning_s"] > limits.planning + LATE_S:
+        return f"returned after {timing['planning_s']:.3f} s; the limit is {limits.planning:g} s"
+    if result.status == PlanStatus.OUT_OF_MEMORY:
+        held, allowed = timing["planning_peak_bytes"] / 2**20, limits.memory / 2**20
+        return f"the planner added {held:.0f} MiB; the option limits.memory allows the whole run {allowed:.0f} MiB"
+    robot = int(result.statistics.get("failed_robot", -1))
+    said = _BLAMES.get(result.status)
+    if said is not None and 0 <= robot < len(problem):
+        x, y = problem.roadmap.position[problem.start[robot]]
+        return f"the planner {said} robot {robot}, which starts at ({x:.1f}, {y:.1f})"
+    return f"the planner ended with {result.status}"
 
 
 def _context(inputs: RunInputs, instance: Instance, result: PlanResult, *, executes: bool) -> RunContext:

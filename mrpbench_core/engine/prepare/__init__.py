@@ -1,0 +1,1 @@
+"""Makes the instance of a run: world, fleet, roadmap, scenario, assignment, and the first problem."""

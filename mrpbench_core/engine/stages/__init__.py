@@ -1,1 +1,0 @@
-"""The stages of one run, in this order: prepare, assign, plan, judge, execute, export, measure."""
