@@ -240,14 +240,14 @@ class Planning:
         return done
 
     def no_recording(problem, result):
-        from mrpbench_core.engine.drive import Claims
+        from mrpbench_core.engine.drive.drive import Claims
 
         replace("_drive", lambda inputs, instance, claims: None)
         Claims.message = lambda claims: {**attrs.asdict(claims), "recorded": False, "ending": None}
         return standing(problem, result)
 
     def claims(problem, result):
-        from mrpbench_core.engine.drive import Claims
+        from mrpbench_core.engine.drive.drive import Claims
 
         Claims.message = lambda claims: {
             "ending": None,
@@ -260,13 +260,13 @@ class Planning:
         return result
 
     def claims_without_form(problem, result):
-        from mrpbench_core.engine.drive import Claims
+        from mrpbench_core.engine.drive.drive import Claims
 
         Claims.message = lambda claims: {"ending": 7, "timing": [1]}
         return result
 
     def said_infeasible(problem, result):
-        from mrpbench_core.engine.drive import Claims
+        from mrpbench_core.engine.drive.drive import Claims
 
         ending = {"status": "scenario_infeasible", "stage": "scenario", "message": "no robot can arrive"}
         Claims.message = lambda claims: {"ending": ending, "recorded": False, "timing": {}}
