@@ -17,10 +17,12 @@ from pathlib import Path
 from typing import Any
 
 import attrs
-from mrpbench_core.engine.pipeline import Observers, execute
 
+from mrpbench_core.api.hooks import hookimpl
 from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.run import execute
 from mrpbench_core.model.runs.status import RunStatus
+from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.store.paths import RunPaths
 
 PARTS = {
@@ -114,13 +116,15 @@ class Clock:
         self.simulated = 0.0
         self._began: tuple[float, float] | None = None
 
-    def stepped(self, *, now: float, **_: object) -> None:
+    @hookimpl
+    def mrpbench_stepped(self, now: float) -> None:
         """Take note of a period that has ended."""
         if self._began is None:
             self._began = time.process_time(), time.perf_counter()
         self.simulated = now
 
-    def executed(self) -> None:
+    @hookimpl
+    def mrpbench_executed(self) -> None:
         """Take note of the end."""
         assert self._began is not None
         cpu, wall = self._began
@@ -135,8 +139,9 @@ def run(case: Case, profile: cProfile.Profile | None = None) -> Clock:
         paths = RunPaths(recording=Path(name) / "run.zip", exports=Path(name) / "exports")
         if profile is not None:
             profile.enable()
-        watching = Observers(stepped=clock.stepped, executed=clock.executed)
-        record = execute(point.config, "speed", paths, lambda *_: None, watching)
+        hooks = Hooks()
+        hooks.register(clock, "clock")
+        record = execute(point.config, "speed", paths, hooks=hooks)
         if profile is not None:
             profile.disable()
     if record.status not in (RunStatus.SUCCEEDED, RunStatus.GOALS_MISSED):

@@ -14,10 +14,10 @@ import time
 from pathlib import Path
 from typing import Any
 
-from mrpbench_core.engine.observers import Observers
-
+from mrpbench_core.api.hooks import hookimpl
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.run import execute
+from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 
@@ -31,7 +31,8 @@ class Watch:
         self.rows: list[tuple[float, float, float, float]] = []
         """Simulated, wall and CPU seconds, MiB."""
 
-    def stepped(self, *, now: float, **_: object) -> None:
+    @hookimpl
+    def mrpbench_stepped(self, now: float) -> None:
         """Take note of a control period."""
         if now >= self._due - 1e-9:
             self._due += self._every
@@ -85,7 +86,9 @@ def main() -> None:
         paths = RunPaths(recording=Path(name) / "run.zip", exports=Path(name) / "exports")
         if options.profile:
             profile.enable()
-        record = execute(point.config, "lifelong", paths, lambda *_: None, Observers(stepped=watch.stepped))
+        hooks = Hooks()
+        hooks.register(watch, "watch")
+        record = execute(point.config, "lifelong", paths, hooks=hooks)
         profile.disable()
         recording = Recording(paths.recording)
         size = paths.recording.stat().st_size / 2**20

@@ -12,10 +12,11 @@ from mrpbench_core.engine.drive.plan import call_planner
 from mrpbench_core.engine.prepare.assign import assign
 from mrpbench_core.engine.prepare.make_instance import build_run_instance
 from mrpbench_core.engine.prepare.problem_building import build_problem
-from mrpbench_core.engine.stage import RunEnded
+from mrpbench_core.engine.prepare.question import Question
+from mrpbench_core.engine.stage import RunEnded, ignore
 from mrpbench_core.model.planning.plan import Budget
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.referee.plans import judge
+from mrpbench_core.referee.plans import Promises, judge_plan
 
 MEMORY = 4 << 30
 
@@ -23,8 +24,8 @@ MEMORY = 4 << 30
 def problem_of(config: RunConfig) -> Problem | None:
     """The problem of a run; None where there cannot be a plan."""
     try:
-        instance = build_run_instance(config, lambda *_: None)
-        return build_problem(instance, assign(config, instance, lambda *_: None, {}), config.assigner)
+        instance = build_run_instance(Question.of(config), ignore)
+        return build_problem(instance, assign(config.assigner, instance, ignore, {}), config.assigner)
     except RunEnded:
         return None
 
@@ -57,8 +58,9 @@ def solve_by_planner(name: str, options: dict[str, Any], problem: Problem, wall_
     if why := planner.skip(problem):
         print(f"{name}: {why}")
         return Solution(status="failed")
+    promises = Promises.of(planner)
     result, timing = call_planner(planner, problem, Budget(wall_s=wall_s, memory_bytes=MEMORY))
-    result, fault = judge(planner, problem, result)
+    result, fault = judge_plan(promises, problem, result)
     if fault is not None:
         print(f"{name}: {fault}")
         return Solution(status="failed")

@@ -19,7 +19,7 @@ from mrpbench_core.engine.run import execute
 from mrpbench_core.files.jsonl import line
 from mrpbench_core.files.scenario import write_scenario
 from mrpbench_core.store.paths import RunPaths
-from mrpbench_core.store.recording import Recording
+from mrpbench_core.store.recording import Recording, RecordingWriter
 
 RUN = {
     "name": "fuzz",
@@ -58,7 +58,18 @@ def example() -> tuple[dict[str, Any], bytes]:
         config = {"world": {"plugin": "office"}, "planner": {"plugin": "example"}, "limits": {"planning": 60.0}}
         versions = {"components": [{"kind": "planner", "name": "example"}], "versions": {"numpy": "2"}}
         stored = StoredRecord(run=run, attempt=1, config=config, seed=0, repeat=0, provenance=versions)
-        return stored.document(), paths.recording.read_bytes()
+        return stored.document(), _whole(paths.recording).read_bytes()
+
+
+def _whole(file: Path) -> Path:
+    """Write a recording again so that it holds its instance, and no other file is needed to read it."""
+    kept, whole = Recording(file), file.with_name("whole.zip")
+    writer = RecordingWriter(whole, kept.first_context())
+    for chunk in kept.chunks():
+        writer.write(chunk)
+    writer.close()
+    kept.close()
+    return whole
 
 
 def recording() -> bytes:

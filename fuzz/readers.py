@@ -160,12 +160,16 @@ ASKED = Asked(
     apart=False,
 )
 """Of a run as the examples of recordings have it."""
+CONFIGURED = ("run_id", "latency", "goal_tolerance", "plan_filter", "period")
+"""What a recording must have as it was asked."""
 
 
 def use_recording(kept: Recording) -> None:
     """Show and judge a recording, and write it as a bag."""
     write_page(kept, example()[0], kept.file.parent / "page.html", columns={}, planner="example")
-    judge(ASKED, kept, kept.instance_name, {"execution": execution.Execution()}, None)
+    recorded = kept.recorded_run()
+    asked = attrs.evolve(ASKED, **{name: getattr(recorded, name) for name in CONFIGURED})
+    judge(asked, kept, kept.instance_name, {"execution": execution.Execution()}, None)
     session = Rosbag2(topics=("/robot_*", "/tf*")).open(kept.first_context(), kept.file.parent / "bag")
     try:
         for chunk in kept.chunks():

@@ -2,8 +2,8 @@
 
 A robot completes its path at the first sample at which it has completed the last move of the path; waits after that
 move do not count, because every new plan adds some to the paths of robots that have arrived. It arrives at the first
-sample from then on at which it is at its goal, if it is there at the end of the execution, rests then, and has come by
-its earlier goals in their order. Where these are and where the robot is, true poses say, not the navigator.
+sample from then on at which it rests at its goal, if it stays there to the end of the execution, rests then, and has
+come by its earlier goals in their order. Where these are and where the robot is, true poses say, not the navigator.
 """
 
 from collections.abc import Sequence
@@ -30,11 +30,13 @@ def arrival_times(run: FinishedRun) -> Float:
         return arrival
     context, truth, level = run.first_context(), run.channel("truth"), run.channel("level")
     near = is_at_goal(context, truth[..., :2], level)
-    stays = near[-1] & has_passed_goals(context, truth[..., :2], level)
+    there = near[::-1].cumprod(axis=0)[::-1].astype(bool)  # and does not leave again
     if run.has("command"):  # without physics robots stop at once
-        stays &= (np.abs(run.channel("truth_twist")[-1]) < REST).all(axis=1)
-    there = near & (time[:, None] >= arrival)
-    return np.where(there.any(axis=0) & stays, time[there.argmax(axis=0)], np.nan)
+        resting = (np.abs(run.channel("truth_twist")) < REST).all(axis=2)
+        there &= resting & resting[-1]
+    there &= time[:, None] >= arrival
+    passed = has_passed_goals(context, truth[..., :2], level)
+    return np.where(there.any(axis=0) & passed, time[there.argmax(axis=0)], np.nan)
 
 
 def completion_times(time: Float, reached: Int32, routes: Sequence[Route]) -> Float:

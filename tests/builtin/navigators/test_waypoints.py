@@ -97,7 +97,7 @@ def test_a_robot_whose_controller_knows_no_way_stands(fleet):
 def test_a_controller_that_returns_no_command_is_blamed_by_its_name(fleet, command):
     session, controllers = fleet
     controllers[0].command = lambda observation: command
-    with pytest.raises(BrokenContractError, match=r"the controller _Recording returned .* for robot 0"):
+    with pytest.raises(BrokenContractError, match=r"the controller _Recording returned (.* )?for robot 0"):
         session.step(0.0, observe([[0, 0, 0], [0, 5, 0]]), Orders(released=[1, 0]))
 
 

@@ -37,7 +37,11 @@ class Optimal(Planner):
 @attrs.frozen(kw_only=True)
 class Bounded(Optimal):
     promises: ClassVar[frozenset[Promise]] = frozenset(Promise) - {Promise.OPTIMAL, Promise.ROBUST}
-    suboptimality: ClassVar[float] = 1.5
+    w: float = 1.5
+
+    @property
+    def suboptimality(self):
+        return self.w
 
 
 @attrs.frozen(kw_only=True)

@@ -35,7 +35,7 @@ def test_recording_trajectories_changes_nothing_else_at_any_number_of_workers(tm
             study | {"recording": asked, "matrix": {"seed": [1, 2]}}, out=tmp_path / "two", workers=2
         ),
     }
-    first = {name: next(iter(records))["run_id"] for name, records in runs.items()}
+    first = {name: next(row["run_id"] for row in rows if row["seed"] == 1) for name, rows in runs.items()}
     files = {name: tmp_path / name / "recordings" / f"{run_id}.zip" for name, run_id in first.items()}
     assert files["one"].name == files["two"].name
     assert files["one"].read_bytes() == files["two"].read_bytes()
