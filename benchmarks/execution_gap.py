@@ -17,6 +17,8 @@ from typing import Any
 
 from mrpbench_core import run
 from mrpbench_core.builtin.roadmaps.calibration import calibrate, drive_of
+from mrpbench_core.model.runs.arrivals import arrival_times
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.store.results import Results
 
 WORLDS, ROBOTS = ["office", "warehouse", "airport"], [5, 10, 20, 50]
@@ -54,7 +56,9 @@ def calibrated(options: argparse.Namespace, controller: str) -> dict[str, Any]:
     drives = []
     for results, record in drive(options, kinodynamic, controller, {"seed": list(ALONE)}):
         recording = results.recording(record["run_id"])
-        drives.append(drive_of(recording.first_context(), recording.channel("time"), recording.channel("reached")))
+        context = recording.first_context()
+        (arrival,) = arrival_times(FinishedRun(context=context, executed=True, channels=recording.channels))
+        drives.append(drive_of(context, float(arrival)))
     found = calibrate(drives)
     print(f"{controller}: {found}", flush=True)
     return kinodynamic | found.options

@@ -1,11 +1,14 @@
 """`mrpbench calibrate DIR`: fit the durations of a roadmap to how a controller drives."""
 
 import argparse
+import math
 from collections import defaultdict
 
 from mrpbench_core.builtin.roadmaps.calibration import Drive, calibrate, drive_of
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.runs.arrivals import arrival_times
+from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.report.reading.axes import NO_AXES, find_axes, name_axes
 from mrpbench_core.store.results import load
 
@@ -34,8 +37,10 @@ def run(arguments: argparse.Namespace) -> int:
         if any(roadmap.get(name, value) != value for name, value in PENALTIES.items()):
             raise InputError(f"run {record['run_id']} was planned with penalties", hint="leave them out of the drives")
         recording = results.recording(record["run_id"])
-        channels = recording.channel("time"), recording.channel("reached")
-        drives[name_axes(axes) or "all"].append(drive_of(recording.first_context(), *channels))
+        context = recording.first_context()
+        run = FinishedRun(context=context, executed=True, channels=recording.channels)
+        arrival = float(arrival_times(run)[0]) if context.routes else math.nan
+        drives[name_axes(axes) or "all"].append(drive_of(context, arrival))
         recording.close()
     found = {name: calibrate(own) for name, own in drives.items()}
     if arguments.json:

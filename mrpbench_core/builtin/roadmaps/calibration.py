@@ -14,7 +14,7 @@ import numpy as np
 
 from mrpbench_core.builtin.roadmaps.headings import BEND
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.model.common.arrays import Float, Int32
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.runs.run import RunContext
 
 
@@ -44,13 +44,12 @@ class Calibration(NamedTuple):
     """The same with the options, but for the rounding of durations to ticks."""
 
 
-def drive_of(context: RunContext, time: Float, reached: Int32) -> Drive:
+def drive_of(context: RunContext, arrival: float) -> Drive:
     """Return the drive of a run of one robot.
 
     Args:
         context: of the run, with a plan by kinodynamic durations without penalties.
-        time: f8[T] seconds of the recording.
-        reached: i4[T,1] segments.
+        arrival: simulated seconds at which the robot arrived, NaN = it did not.
 
     Raises:
         InputError: there is no such plan.
@@ -67,7 +66,6 @@ def drive_of(context: RunContext, time: Float, reached: Int32) -> Drive:
     angle = np.abs(np.remainder(roadmap.heading[head] - roadmap.heading[tail] + np.pi, 2 * np.pi) - np.pi)
     stops = (way == 0) & np.isnan(roadmap.heading[head])
     turns = (way == 0) & ~stops & ~(angle < BEND)  # after rest the heading is unknown, and the angle NaN
-    done = reached[:, 0] >= context.routes[0].last_move
     return Drive(
         driving=float(way.sum() / context.fleet.robots[0].max_speed),
         turning=float(seconds[turns].sum()),
@@ -75,7 +73,7 @@ def drive_of(context: RunContext, time: Float, reached: Int32) -> Drive:
         stopping=float(seconds[stops].sum()),
         tick=roadmap.tick,
         planned=path.arrival * roadmap.tick,
-        executed=float(time[done.argmax()]) if done.any() else np.nan,
+        executed=arrival,
     )
 
 
