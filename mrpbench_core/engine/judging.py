@@ -13,7 +13,6 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.printing import printable
 from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.referee.asked import Asked
-from mrpbench_core.referee.measuring import Measured
 from mrpbench_core.referee.verdict import Ending, Verdict, broken, judge
 from mrpbench_core.store.instances import InstanceFolder
 from mrpbench_core.store.paths import RunPaths
@@ -101,12 +100,6 @@ def keep(record: RunRecord, paths: RunPaths, kept: str) -> None:
     record.files = seal(paths, recording=wanted)
     if not wanted:
         paths.recording.unlink(missing_ok=True)
-
-
-def add(record: RunRecord, measured: Measured) -> None:
-    """Add the values of metrics that were measured in another process."""
-    values, reasons = measured
-    record.metrics, record.unmeasured = record.metrics | values, record.unmeasured | reasons
 
 
 def end(record: RunRecord, ending: Ending | None) -> None:

@@ -1,4 +1,4 @@
-"""Reads arrays from zips that may come from others: `.npz` files and recordings, which hold many small `.npy` files."""
+"""Reads and writes arrays in zips: `.npz` files and recordings with many small `.npy` files, maybe those of others."""
 
 import math
 import zipfile
@@ -24,6 +24,18 @@ def read_entry(source: zipfile.ZipFile, entry: zipfile.ZipInfo) -> bytes:
         raise ValueError(f"{entry.filename} is compressed by the method {entry.compress_type}")
     with source.open(entry) as stream:
         return stream.read(entry.file_size)
+
+
+def write_entry(archive: zipfile.ZipFile, name: str, content: bytes) -> None:
+    """Add a file without a date, so that equal contents make equal zips, byte by byte."""
+    archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED, compresslevel=1)
+
+
+def array_bytes(array: NDArray[Any]) -> bytes:
+    """The content of a `.npy` file."""
+    buffer = BytesIO()
+    np.save(buffer, array, allow_pickle=False)
+    return buffer.getvalue()
 
 
 def read_array(content: bytes) -> NDArray[Any]:

@@ -40,11 +40,6 @@ def measure(metrics: Mapping[str, Metric], run: FinishedRun) -> Measured:
     return values, reasons
 
 
-def unmeasurable(name: str, metric: Metric | type[Metric], reason: str) -> Measured:
-    """The values of a metric that could not be called."""
-    return {f"{name}.{column.name}": None for column in metric.columns}, {name: reason}
-
-
 def _fault(measured: Mapping[str, Any], column: str) -> str | None:
     """What a metric returned instead of a number or None."""
     if column not in measured:

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from mrpbench_core.checking.context import check_instance
 from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError, one_line
-from mrpbench_core.files.npz import read_array, read_entry
+from mrpbench_core.files.npz import array_bytes, read_array, read_entry, write_entry
 from mrpbench_core.files.output import replace_file
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.goals import first_problem, start_vertices
@@ -191,14 +191,11 @@ def _zipped(site: Site) -> bytes:
 
         def keep(array: NDArray[Any]) -> str:
             nonlocal arrays
-            stream = BytesIO()
-            np.save(stream, array, allow_pickle=False)
             name, arrays = f"{arrays}.npy", arrays + 1
-            archive.writestr(zipfile.ZipInfo(name), stream.getvalue(), zipfile.ZIP_DEFLATED, compresslevel=1)
+            write_entry(archive, name, array_bytes(array))
             return name
 
-        content = json.dumps(encode(site, keep)).encode()
-        archive.writestr(zipfile.ZipInfo("site.json"), content, zipfile.ZIP_DEFLATED, compresslevel=1)
+        write_entry(archive, "site.json", json.dumps(encode(site, keep)).encode())
     return buffer.getvalue()
 
 

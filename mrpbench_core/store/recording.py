@@ -6,7 +6,6 @@ from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import cached_property, partial
-from io import BytesIO
 from pathlib import Path
 from typing import Any, Self
 
@@ -18,7 +17,7 @@ from mrpbench_core.checking.context import check_context, check_rows
 from mrpbench_core.checking.recording import axis_of, check_names
 from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError, one_line
-from mrpbench_core.files.npz import read_array, read_entry
+from mrpbench_core.files.npz import array_bytes, read_array, read_entry, write_entry
 from mrpbench_core.files.output import create_file
 from mrpbench_core.model.common.arrays import Int, Int32
 from mrpbench_core.model.execution.movers import Mover
@@ -138,26 +137,22 @@ class RecordingWriter:
             header: dict[str, Any] = {"format": INLINE, "context": encode(context, self._keep)}
         else:
             header = {"format": FORMAT, "instance": instance, "context": encode(RecordedRun.of(context), self._inline)}
-        self._put("context.json", json.dumps(header).encode())
+        write_entry(self._zip, "context.json", json.dumps(header).encode())
 
     def _keep(self, array: NDArray[Any]) -> str:
         name = f"context/{self._arrays}.npy"
         self._arrays += 1
-        self._put(name, _npy(array))
+        write_entry(self._zip, name, array_bytes(array))
         return name
 
     def _inline(self, array: NDArray[Any]) -> str:
         """Small arrays are part of the context: most runs that only plan have no others."""
         return inlined(array) if array.nbytes <= SMALL else self._keep(array)
 
-    def _put(self, name: str, content: bytes) -> None:
-        """Add a file without a date, so that equal recordings are equal byte by byte."""
-        self._zip.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED, compresslevel=1)
-
     def write(self, chunk: Chunk) -> None:
         """Append rows to channels."""
         for channel, rows in chunk.items():
-            self._put(f"{channel}/{self._chunks:06d}.npy", _npy(rows))
+            write_entry(self._zip, f"{channel}/{self._chunks:06d}.npy", array_bytes(rows))
         self._chunks += 1
 
     def close(self) -> None:
@@ -171,12 +166,6 @@ class RecordingWriter:
         self._zip.close()
         self._stream.close()
         self.temporary.unlink(missing_ok=True)
-
-
-def _npy(array: NDArray[Any]) -> bytes:
-    buffer = BytesIO()
-    np.save(buffer, array, allow_pickle=False)
-    return buffer.getvalue()
 
 
 class Recording:
