@@ -9,16 +9,6 @@ from mrpbench_core.files.robot import load_robot
 BURGER = load_robot("turtlebot3_burger")
 
 
-@pytest.fixture
-def write(tmp_path):
-    def write(text):
-        path = tmp_path / "params.yaml"
-        path.write_text(text)
-        return path
-
-    return write
-
-
 def values(controller):
     return controller.settings(BURGER, 0.05).values
 

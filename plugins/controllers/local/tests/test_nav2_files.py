@@ -22,16 +22,6 @@ RPP = "nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController"
 SHIM = "nav2_rotation_shim_controller::RotationShimController"
 
 
-@pytest.fixture
-def write(tmp_path):
-    def write(text):
-        path = tmp_path / "params.yaml"
-        path.write_text(text)
-        return path
-
-    return write
-
-
 def values(controller):
     return controller.settings(BURGER, 0.05).values
 
