@@ -31,7 +31,7 @@ PARTS = {
     "crowd": ("mrpbench_crowds_walking/session.py", "step"),
     "controller": ("session.py", "command"),
     "pure_pursuit": ("pure_pursuit.py", "command"),
-    "navigator": ("navigators/session.py", "step"),
+    "navigator": ("mrpbench_navigators_waypoints/session.py", "step"),
     "dispatcher": ("order_keeping.py", "update"),
     "localizer": ("ground_truth.py", "update"),
     "checks": ("contract_checks.py", ""),

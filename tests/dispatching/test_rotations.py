@@ -3,11 +3,11 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_navigators_waypoints.rotations import LEAD, OFFSET
 from mrpbench_tests.execution.rings import ring_problem, rotate
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
-from mrpbench_core.builtin.navigators.rotations import LEAD, OFFSET
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 
 CELL = 0.4

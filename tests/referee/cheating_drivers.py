@@ -9,6 +9,7 @@ import sys
 
 import attrs
 import numpy as np
+from mrpbench_navigators_waypoints import Waypoints
 
 from mrpbench_core.api import (
     Column,
@@ -30,7 +31,6 @@ from mrpbench_core.api import (
 )
 from mrpbench_core.builtin.assigners.identity import Identity
 from mrpbench_core.builtin.dispatchers.all_at_once import AllAtOnce
-from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.model.execution.motion import Mode
 from mrpbench_core.model.execution.observation import Estimate

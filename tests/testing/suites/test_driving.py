@@ -2,11 +2,11 @@
 
 import attrs
 import numpy as np
+from mrpbench_navigators_waypoints import Waypoints
 from mrpbench_tests.variant import variant
 
 from mrpbench_core.api import Crowd, Mover, Movers
 from mrpbench_core.builtin.localizers.ground_truth import GroundTruth
-from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.testing import failed_checks, suite_for
 
 

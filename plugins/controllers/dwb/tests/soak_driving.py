@@ -19,8 +19,8 @@ from typing import Any
 import attrs
 import numpy as np
 from mrpbench_metrics_standard.progress import progress
+from mrpbench_navigators_waypoints.obstructions import obstruction
 
-from mrpbench_core.builtin.navigators.obstructions import obstruction
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.run import execute
 from mrpbench_core.model.execution.motion import Mode

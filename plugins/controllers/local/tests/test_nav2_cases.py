@@ -4,8 +4,8 @@ import pytest
 from mrpbench_controllers_dwb import Dwb
 from mrpbench_controllers_mppi import Mppi
 from mrpbench_localizers_amcl import Amcl
+from mrpbench_navigators_waypoints import Waypoints
 
-from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.config.study import load_study
 from mrpbench_core.files.errors import InputErrors
 from mrpbench_core.files.robot import load_robot

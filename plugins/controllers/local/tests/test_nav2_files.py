@@ -8,8 +8,8 @@ from mrpbench_controllers_mppi import Mppi
 from mrpbench_controllers_rotation_shim import RotationShim
 from mrpbench_controllers_rpp import Rpp
 from mrpbench_localizers_amcl import Amcl
+from mrpbench_navigators_waypoints import Waypoints
 
-from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.config.study import load_study
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot

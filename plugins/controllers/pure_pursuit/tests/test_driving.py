@@ -5,8 +5,8 @@ import math
 import numpy as np
 import pytest
 from mrpbench_controllers_pure_pursuit import PurePursuit
+from mrpbench_navigators_waypoints import Waypoints
 
-from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet

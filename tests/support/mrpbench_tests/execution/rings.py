@@ -4,9 +4,9 @@ from itertools import combinations
 
 import attrs
 import numpy as np
+from mrpbench_navigators_waypoints import Waypoints
 
 from mrpbench_core.api import Controller, Dispatcher, Simulator
-from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.common.fleet import Fleet

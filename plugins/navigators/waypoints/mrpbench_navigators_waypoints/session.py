@@ -7,13 +7,6 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.navigator import NavigatorSession
-from mrpbench_core.builtin.navigators.controller_server import ControllerServer
-from mrpbench_core.builtin.navigators.detours import Detours
-from mrpbench_core.builtin.navigators.obstructions import obstruction
-from mrpbench_core.builtin.navigators.progress_checker import ProgressChecker
-from mrpbench_core.builtin.navigators.recovery_manager import RecoveryManager
-from mrpbench_core.builtin.navigators.rotations import Rotations
-from mrpbench_core.builtin.navigators.route_follower import RouteFollower
 from mrpbench_core.model.common.arrays import Bool, Byte, Float, Int, Int32
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
@@ -21,6 +14,13 @@ from mrpbench_core.model.execution.observation import FleetObservation, Observat
 from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.worlds.world import World
+from mrpbench_navigators_waypoints.controller_server import ControllerServer
+from mrpbench_navigators_waypoints.detours import Detours
+from mrpbench_navigators_waypoints.obstructions import obstruction
+from mrpbench_navigators_waypoints.progress_checker import ProgressChecker
+from mrpbench_navigators_waypoints.recovery_manager import RecoveryManager
+from mrpbench_navigators_waypoints.rotations import Rotations
+from mrpbench_navigators_waypoints.route_follower import RouteFollower
 
 _MODES = np.array([Mode.WAITING, Mode.FOLLOWING], np.uint8)
 """The mode of a robot that neither recovers nor has given up, by whether it is under way."""

@@ -16,11 +16,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mrpbench_core.builtin.navigators.route_follower import RouteFollower
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.common.poses import wrapped
 from mrpbench_core.model.execution.orders import Orders
+from mrpbench_navigators_waypoints.route_follower import RouteFollower
 
 LEAD = 0.02
 """metres by which a robot may lead the last of its group."""

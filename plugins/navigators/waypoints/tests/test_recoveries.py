@@ -2,12 +2,12 @@ import math
 
 import numpy as np
 import pytest
+from mrpbench_navigators_waypoints.recoveries.back_up import BackUp
+from mrpbench_navigators_waypoints.recoveries.clear import Clear
+from mrpbench_navigators_waypoints.recoveries.spin import Spin
+from mrpbench_navigators_waypoints.recoveries.wait import Wait
 
 from mrpbench_core.api import Surroundings
-from mrpbench_core.builtin.recoveries.back_up import BackUp
-from mrpbench_core.builtin.recoveries.clear import Clear
-from mrpbench_core.builtin.recoveries.spin import Spin
-from mrpbench_core.builtin.recoveries.wait import Wait
 from mrpbench_core.files.robot import load_robot
 
 BURGER = load_robot("turtlebot3_burger")

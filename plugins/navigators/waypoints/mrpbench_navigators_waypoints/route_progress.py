@@ -5,10 +5,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mrpbench_core.builtin.navigators.route_checks import SLACK
-from mrpbench_core.builtin.navigators.route_tables import ArrivalRules, RouteTables
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32
 from mrpbench_core.model.execution.route import Route
+from mrpbench_navigators_waypoints.route_checks import SLACK
+from mrpbench_navigators_waypoints.route_tables import ArrivalRules, RouteTables
 
 _STANDING = 0.01
 """m/s below which a robot stands still."""

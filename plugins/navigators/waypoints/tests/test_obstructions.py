@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
+from mrpbench_navigators_waypoints.obstructions import obstruction
 
-from mrpbench_core.builtin.navigators.obstructions import obstruction
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.worlds.world import Level, World

@@ -2,10 +2,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_navigators_waypoints import Waypoints
+from mrpbench_navigators_waypoints.progress_checker import ProgressChecker
+from mrpbench_navigators_waypoints.route_follower import RouteFollower
 
-from mrpbench_core.builtin.navigators.progress_checker import ProgressChecker
-from mrpbench_core.builtin.navigators.route_follower import RouteFollower
-from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.execution.route import Route
 

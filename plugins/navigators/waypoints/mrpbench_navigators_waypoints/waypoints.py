@@ -15,23 +15,23 @@ from attrs.validators import ge, gt, optional
 from mrpbench_core.api import Controller, Navigator, NavigatorSession, option
 from mrpbench_core.api.nav2 import controller_server, not_used, parameter, settle
 from mrpbench_core.api.recovery import Recovery
-from mrpbench_core.builtin.navigators.checkers import from_nav2, parameters_of
-from mrpbench_core.builtin.navigators.controller_server import ControllerServer
-from mrpbench_core.builtin.navigators.detours import DetourOptions, Detours
-from mrpbench_core.builtin.navigators.progress_checker import ProgressChecker
-from mrpbench_core.builtin.navigators.recovery_manager import RecoveryManager, RecoveryOptions
-from mrpbench_core.builtin.navigators.rotations import Rotations
-from mrpbench_core.builtin.navigators.route_follower import RouteFollower
-from mrpbench_core.builtin.navigators.route_tables import ArrivalRules
-from mrpbench_core.builtin.navigators.session import WaypointsSession
-from mrpbench_core.builtin.recoveries.back_up import BackUp
-from mrpbench_core.builtin.recoveries.clear import Clear
-from mrpbench_core.builtin.recoveries.spin import Spin
-from mrpbench_core.builtin.recoveries.wait import Wait
 from mrpbench_core.files.nav2_file import Nav2File
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.worlds.world import World
+from mrpbench_navigators_waypoints.checkers import from_nav2, parameters_of
+from mrpbench_navigators_waypoints.controller_server import ControllerServer
+from mrpbench_navigators_waypoints.detours import DetourOptions, Detours
+from mrpbench_navigators_waypoints.progress_checker import ProgressChecker
+from mrpbench_navigators_waypoints.recoveries.back_up import BackUp
+from mrpbench_navigators_waypoints.recoveries.clear import Clear
+from mrpbench_navigators_waypoints.recoveries.spin import Spin
+from mrpbench_navigators_waypoints.recoveries.wait import Wait
+from mrpbench_navigators_waypoints.recovery_manager import RecoveryManager, RecoveryOptions
+from mrpbench_navigators_waypoints.rotations import Rotations
+from mrpbench_navigators_waypoints.route_follower import RouteFollower
+from mrpbench_navigators_waypoints.route_tables import ArrivalRules
+from mrpbench_navigators_waypoints.session import WaypointsSession
 
 _KEEPING, _CUTTING = 0.10, 0.50
 """Metres from a waypoint on the way at which robots that keep to their routes, and robots that cut corners, pass it."""

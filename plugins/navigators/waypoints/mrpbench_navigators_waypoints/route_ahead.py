@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from mrpbench_core.builtin.navigators.route_checks import FleetChecks, Legs
-from mrpbench_core.builtin.navigators.route_progress import RouteProgress
 from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_navigators_waypoints.route_checks import FleetChecks, Legs
+from mrpbench_navigators_waypoints.route_progress import RouteProgress
 
 
 class RouteAhead:

@@ -5,11 +5,11 @@ import attrs
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_navigators_waypoints import Waypoints
+from mrpbench_navigators_waypoints.route_checks import FleetChecks
+from mrpbench_navigators_waypoints.route_follower import RouteFollower
+from mrpbench_navigators_waypoints.route_tables import RouteTables
 
-from mrpbench_core.builtin.navigators.route_checks import FleetChecks
-from mrpbench_core.builtin.navigators.route_follower import RouteFollower
-from mrpbench_core.builtin.navigators.route_tables import RouteTables
-from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.model.execution.route import Route
 
 RULES = Waypoints().arrival_rules

@@ -4,11 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mrpbench_core.builtin.navigators.route_ahead import RouteAhead
-from mrpbench_core.builtin.navigators.route_progress import RouteProgress
-from mrpbench_core.builtin.navigators.route_tables import ArrivalRules
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16, Int32, read_only
 from mrpbench_core.model.execution.route import Route, Routes
+from mrpbench_navigators_waypoints.route_ahead import RouteAhead
+from mrpbench_navigators_waypoints.route_progress import RouteProgress
+from mrpbench_navigators_waypoints.route_tables import ArrivalRules
 
 _SETTLED = 0.02
 """metres from the end of the released part within which a robot that has reached it need not drive on."""

@@ -3,9 +3,9 @@
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_navigators_waypoints.controller_server import ControllerServer
 
 from mrpbench_core.api.controller import FleetControllerSession
-from mrpbench_core.builtin.navigators.controller_server import ControllerServer
 from mrpbench_core.model.execution.observation import Observations
 
 PERIOD = 0.1

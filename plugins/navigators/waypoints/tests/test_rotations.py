@@ -3,10 +3,10 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_navigators_waypoints import Waypoints
+from mrpbench_navigators_waypoints.rotations import FACING, LEAD, OFFSET
 from mrpbench_tests.execution.rings import ring_problem
 
-from mrpbench_core.builtin.navigators.rotations import FACING, LEAD, OFFSET
-from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.model.common.poses import wrapped
 from mrpbench_core.model.execution.observation import Estimate, FleetObservation, Odometry
 from mrpbench_core.model.execution.orders import Orders

@@ -11,10 +11,10 @@ import numpy as np
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.controller import FleetControllerSession
 from mrpbench_core.api.recovery import Recovery, RecoverySession, Surroundings
-from mrpbench_core.builtin.navigators.route_follower import RouteFollower
 from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.execution.motion import Event
+from mrpbench_navigators_waypoints.route_follower import RouteFollower
 
 
 @attrs.frozen(kw_only=True)

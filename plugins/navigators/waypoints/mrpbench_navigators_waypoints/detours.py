@@ -8,10 +8,10 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.controller import FleetControllerSession
-from mrpbench_core.builtin.navigators.route_follower import RouteFollower
 from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.execution.motion import Event
 from mrpbench_core.model.execution.observation import Observations
+from mrpbench_navigators_waypoints.route_follower import RouteFollower
 
 _REACHED = 0.1
 """metres from a point of a detour at which the robot goes on to the next one."""

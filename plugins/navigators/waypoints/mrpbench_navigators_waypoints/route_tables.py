@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 
-from mrpbench_core.builtin.navigators.route_checks import SLACK, ClearanceCheck, CornerCheck, Legs, WaypointCheck
 from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.execution.route import Route, Routes, last_moves
+from mrpbench_navigators_waypoints.route_checks import SLACK, ClearanceCheck, CornerCheck, Legs, WaypointCheck
 
 BACK = 2.4
 """Radians; a path that turns by more leads back along itself, as where a robot makes room for another one."""

@@ -3,11 +3,11 @@ from types import SimpleNamespace
 import attrs
 import numpy as np
 import pytest
+from mrpbench_navigators_waypoints import Waypoints
 
 from mrpbench_core.api import Controller, ControllerSession, Recovery
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.api.recovery import RecoverySession
-from mrpbench_core.builtin.navigators.waypoints import Waypoints
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Mode

@@ -1,1 +1,0 @@
-"""Recoveries of robots that are stuck, with the names and values of Nav2's behaviours."""
