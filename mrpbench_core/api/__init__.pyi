@@ -77,7 +77,7 @@ from mrpbench_core.api.dispatcher import (
     DispatchError as DispatchError,
     Dispatcher as Dispatcher,
     DispatcherSession as DispatcherSession,
-    RepeatedSession as RepeatedSession,
+    BatchSession as BatchSession,
 )
 from mrpbench_core.model.execution.evaluation import Evaluation as Evaluation
 from mrpbench_core.model.execution.motion import Event as Event, Mode as Mode, Motion as Motion
@@ -89,7 +89,7 @@ from mrpbench_core.model.execution.observation import (
 from mrpbench_core.model.execution.orders import (
     FleetView as FleetView,
     Orders as Orders,
-    RepeatedOrders as RepeatedOrders,
+    BatchOrders as BatchOrders,
 )
 from mrpbench_core.model.execution.route import Route as Route
 from mrpbench_core.checking.facility_use import check_facility_use as check_facility_use

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.model.common.arrays import Int, Int32
-from mrpbench_core.model.execution.orders import FleetView, Orders, RepeatedOrders
+from mrpbench_core.model.execution.orders import BatchOrders, FleetView, Orders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
 
@@ -46,18 +46,18 @@ class DispatcherSession(ABC):
         """
         return None
 
-    def repeated(self, executions: int) -> "RepeatedSession | None":  # noqa: ARG002 - for those that can
+    def batch(self, executions: int) -> "BatchSession | None":  # noqa: ARG002 - for those that can
         """Return a session that goes on from here, as copies would, in so many executions at once; None = it cannot, or
         the plan needs doors, lifts or mutexes, or limits of speed.
         """
         return None
 
 
-class RepeatedSession(ABC):
+class BatchSession(ABC):
     """Releases one plan in d executions, all of which go on by the same clock."""
 
     @abstractmethod
-    def update(self, now: float, seen: Int) -> RepeatedOrders:
+    def update(self, now: float, seen: Int) -> BatchOrders:
         """Return for each execution what `DispatcherSession.update` would return.
 
         Called every control period.

@@ -2,15 +2,15 @@
 
 import numpy as np
 
-from mrpbench_core.api.dispatcher import RepeatedSession
+from mrpbench_core.api.dispatcher import BatchSession
 from mrpbench_core.dispatching.dependency_graph import DependencyGraph
 from mrpbench_core.model.common.arrays import Bool, Int, Int32
-from mrpbench_core.model.execution.orders import RepeatedOrders
+from mrpbench_core.model.execution.orders import BatchOrders
 
 _NEVER = 2**62
 
 
-class FixedOrder(RepeatedSession):
+class FixedOrder(BatchSession):
     """Releases each move once what it depends on is met, as `OrderKeepingSession` does.
 
     Robots and rotations wait for one dependency at a time: while that is not met, the others do not matter.
@@ -42,7 +42,7 @@ class FixedOrder(RepeatedSession):
         self._waits = _Waits(dependencies, np.repeat(np.arange(executions) * robots, robots))
         self._rotations = _Rotations(graph, dependencies, executions, robots)
 
-    def update(self, now: float, seen: Int) -> RepeatedOrders:  # noqa: ARG002 - times do not matter
+    def update(self, now: float, seen: Int) -> BatchOrders:  # noqa: ARG002 - times do not matter
         """Release the moves that no longer wait for anything."""
         counts = seen.reshape(-1)
         ahead = counts[: self._count] + (1 + self._lookahead)
@@ -53,7 +53,7 @@ class FixedOrder(RepeatedSession):
             self._free[at] = self._before[self._place[at]]
             at = at[self._free[at] < ahead[at]]
         self._released = np.maximum(self._released, np.minimum(self._free, ahead))
-        return RepeatedOrders(released=self._released.reshape(seen.shape[1:]), in_step=self._rotations.in_step(counts))
+        return BatchOrders(released=self._released.reshape(seen.shape[1:]), in_step=self._rotations.in_step(counts))
 
 
 class _Dependencies:
@@ -118,7 +118,7 @@ class _Rotations:
         self._under_way: Int = np.empty(0, np.int64)
 
     def in_step(self, counts: Int) -> Int:
-        """The members of those that are released and not completed; see `RepeatedOrders`."""
+        """The members of those that are released and not completed; see `BatchOrders`."""
         if not self._count:
             return np.empty((0, 4), np.int64)
         at = np.flatnonzero(self._open & self._waits.may_go(counts))

@@ -17,7 +17,7 @@ from mrpbench_core.checking.recording import LARGEST
 from mrpbench_core.model.common.arrays import Float, Int, Int16, Int32, frozen_array
 from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.observation import Estimate, ScanBatch
-from mrpbench_core.model.execution.orders import Orders, RepeatedOrders
+from mrpbench_core.model.execution.orders import BatchOrders, Orders
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.scenario import MOST_ROBOTS, Scenario, Task
 from mrpbench_core.plugins.kinds import kind_of
@@ -68,7 +68,7 @@ class ContractChecks:
         nothing: Int32 = np.zeros(self._robots, np.int32)
         self._released = self._reached = self._cleared = nothing
         self._least: Int = np.zeros((1, self._robots), np.int64)
-        """What `repeated` orders must release at least."""
+        """What `batch` orders must release at least."""
         self._limits_speed: bool | None = None
         """Whether the dispatcher limits speeds."""
 
@@ -191,10 +191,10 @@ class ContractChecks:
             _refuse("the dispatcher", f"robots {found} for which a robot waits, and not all of them exist")
         return found
 
-    def repeated(self, orders: RepeatedOrders, executions: int) -> RepeatedOrders:
+    def batch(self, orders: BatchOrders, executions: int) -> BatchOrders:
         """Check the orders for several executions that a dispatcher returns."""
         kind = "the dispatcher"
-        _require_class(kind, orders, RepeatedOrders)
+        _require_class(kind, orders, BatchOrders)
         released, in_step = orders.released, orders.in_step
         if released.shape != (executions, self._robots):
             _refuse(kind, f"released of shape {released.shape} for {executions} executions of {self._robots} robots")

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.execution.batch_executor import NOT_YET, BatchExecutor
 from mrpbench_tests.execution.drawn_executions import drained
 from mrpbench_tests.execution.meetings import meetings
-from mrpbench_tests.execution.repeated_executor import NOT_YET, RepeatedExecutor
 from mrpbench_tests.instances.random_plans import random_plan
 
 from mrpbench_core.api import DispatchError
@@ -122,7 +122,7 @@ def test_profiles_change_nothing_of_what_is_released(seed, resources, replans):
 def arrivals(dispatcher, problem, plan, delays, seed):
     """When the robots of an execution that keep their limits arrive, in seconds."""
     session = dispatcher.start(problem, plan)
-    executor = RepeatedExecutor(problem, plan, 0.25, np.random.default_rng(seed))
+    executor = BatchExecutor(problem, plan, 0.25, np.random.default_rng(seed))
     drawn = DrawnDelays(delays, len(problem), seed, 0, [0])
     while not executor.drained.all():
         orders = session.update(executor.now * executor.period, executor.view(0, 0, ()))

@@ -33,7 +33,7 @@ class AdgSession(OrderKeepingSession):
         """Return a session that goes on from here by itself."""
         return self._copied()
 
-    def repeated(self, executions: int) -> FixedOrder | None:
+    def batch(self, executions: int) -> FixedOrder | None:
         """Return a session that goes on from here in so many executions, unless the plan needs more than an order."""
         if self.graph.requests or self.options.speed_profiles:
             return None

@@ -3,6 +3,7 @@
 Every draw comes from the stream of its own cause and robot.
 """
 
+import copy
 import math
 from collections.abc import Iterator, Sequence
 
@@ -86,14 +87,32 @@ class DrawnDelays:
 
 
 class DelayStream:
-    """The delays of one run, or of one of its `Delays.draws`."""
+    """The delays of one run, or of several draws of them; the same adversary attacks in each.
+
+    Args:
+        settings: of the delays.
+        robots: n.
+        seed: of the run.
+        repeat: of the run.
+        draws: numbers of the d draws. Robot i of draw j is number j n + i.
+        adversary: as it is before an execution; none by default.
+    """
 
     def __init__(
-        self, settings: Delays, robots: int, seed: int, repeat: int, adversary: Adversary | None = None, draw: int = 0
+        self,
+        settings: Delays,
+        robots: int,
+        seed: int,
+        repeat: int,
+        draws: Sequence[int] = (0,),
+        adversary: Adversary | None = None,
     ) -> None:
-        self.settings, self._adversary = settings, adversary
-        self._drawn = DrawnDelays(settings, robots, seed, repeat, (draw,))
+        self.settings, self.executions = settings, len(draws)
+        self._adversaries = [copy.deepcopy(adversary) for _ in draws] if adversary else []
+        self._drawn = DrawnDelays(settings, robots, seed, repeat, draws)
         self._robots: Int = np.arange(robots)
+        self.forget = self._drawn.forget
+        self.speed = self._drawn.speed
 
     def __bool__(self) -> bool:
         return bool(self.settings)
@@ -103,30 +122,33 @@ class DelayStream:
         tick = self.settings.tick
         return ((begin * tick, end * tick) for begin, end in self._drawn.stops(robot))
 
-    def begun(self, now: float) -> tuple[Event, ...]:
-        """The stops that began since the last call, as events; calls have increasing times."""
+    def begun(self, now: float) -> Iterator[Event]:
+        """The stops that began since the last call, as events, each made when it is read; times increase."""
         tick = self.settings.tick
-        return tuple(
+        return (
             Event(stamp=begin * tick, kind="delay", robot=robot, detail=f"{(end - begin) * tick:g} s")
             for begin, robot, end in self._drawn.begun(now)
         )
 
     def attacked(self, now: float, reached: Int | Int32, released: Int | Int32) -> tuple[Event, ...]:
-        """The stop that the adversary begins now, if any; see `Adversary.update`."""
-        return self._adversary.update(now, reached, released) if self._adversary else ()
+        """The stops that adversaries begin now; see `Adversary.update`. The counts are i[dn]."""
+        events: tuple[Event, ...] = ()
+        for index, adversary in enumerate(self._adversaries):
+            robots = slice(index * len(self._robots), (index + 1) * len(self._robots))
+            events += adversary.update(now, reached[robots], released[robots])
+        return events
 
     @property
     def stopped(self) -> Bool:
-        """The robots bool[n] that stop at the time of the last calls of `begun` and `attacked`."""
+        """The robots bool[dn] that stop at the time of the last calls of `begun` and `attacked`."""
         stopped = self._drawn.stopped
-        return stopped | self._adversary.stopped if self._adversary else stopped
-
-    def speed(self, segment: Int | Int32) -> Float:
-        """Relative speed f8[n] of each robot on the `segment` i[n] of its path."""
-        return self._drawn.speed(self._robots, segment)
+        if not self._adversaries:
+            return stopped
+        attacked: Bool = np.concatenate([adversary.stopped for adversary in self._adversaries])
+        return stopped | attacked
 
     def driven(self, twist: Float, segment: Int | Int32) -> Float:
         """The commands f8[n,2] that robots execute instead of `twist` f8[n,2] on the `segment` i[n] of their paths."""
         if not self:
             return twist
-        return twist * np.where(self.stopped, 0.0, self.speed(segment))[:, None]
+        return twist * np.where(self.stopped, 0.0, self.speed(self._robots, segment))[:, None]

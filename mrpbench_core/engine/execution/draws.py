@@ -1,12 +1,10 @@
 """Executes a plan under further draws of its delays."""
 
-import copy
 from collections.abc import Iterator
 
 from mrpbench_core.config.delays import Delays
-from mrpbench_core.engine.execution.delays import DelayStream, DrawnDelays
+from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.faults import FaultState
-from mrpbench_core.engine.execution.repeated_loop import RepeatedLoop
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.worst_case import Adversary
@@ -29,12 +27,12 @@ class Draws:
     def __init__(self, settings: Delays, robots: int, seeds: tuple[int, int], adversary: Adversary | None) -> None:
         self._settings, self._robots, self._seeds, self._adversary = settings, robots, seeds, adversary
 
-    def stream(self, draw: int = 0) -> DelayStream:
-        """The delays of one draw."""
-        return DelayStream(self._settings, self._robots, *self._seeds, copy.deepcopy(self._adversary), draw)
+    def stream(self, *draws: int) -> DelayStream:
+        """The delays of some draws, by default of the first one."""
+        return DelayStream(self._settings, self._robots, *self._seeds, draws or (0,), self._adversary)
 
     def execute(self, schedule: Schedule, faults: FaultState, limit_s: float) -> Iterator[tuple[Float, Float]]:
-        """Execute the draws after the first one.
+        """Execute the draws after the first one, as many at once as the dispatcher allows.
 
         Args:
             schedule: the plan, and who releases it.
@@ -45,16 +43,12 @@ class Draws:
             Arrival f8[d,n] and waiting f8[d,n] of the next d executions; see `ScheduleLoop`.
         """
         size = max(1, _AT_ONCE // max(1, self._robots))
-        for first in range(1, self._settings.draws, size):
-            draws = range(first, min(first + size, self._settings.draws))
-            session = None if faults else schedule.repeated(len(draws))
-            if session is not None:
-                drawn = DrawnDelays(self._settings, self._robots, *self._seeds, draws)
-                adversaries = [copy.deepcopy(self._adversary) for _ in draws] if self._adversary else []
-                yield RepeatedLoop(schedule, session, drawn, adversaries).run(limit_s)
-                continue
-            for draw in draws:
-                again = FaultState(faults.settings, faults.events, self._robots)
-                loop = ScheduleLoop(schedule, self.stream(draw), faults=again)
-                loop.run(limit_s)
-                yield loop.arrival[None], loop.waiting[None]
+        first, count = 1, self._settings.draws
+        while first < count:
+            batch = None if faults else schedule.batch(min(size, count - first))
+            draws = range(first, min(first + size, count) if batch else first + 1)
+            again = FaultState(faults.settings, faults.events, self._robots)
+            loop = ScheduleLoop(schedule, self.stream(*draws), limit_s, faults=again, batch=batch)
+            loop.run()
+            yield loop.arrival, loop.waiting
+            first = draws.stop

@@ -1,17 +1,17 @@
-"""Assigns doors, lifts and mutexes to robots, and commands doors and lifts accordingly.
+"""Commands doors and lifts for the robots to which they are assigned.
 
-A robot that requests a resource gets it as soon as there is room, and holds it until it no longer requests it. The
-robot may use the resource (`FleetView.granted`) once the door is open (closed where the robot only drives past), or
+A robot may use a resource (`FleetView.granted`) once the door is open (closed where the robot only drives past), or
 once the cabin is at the robot's level with open doors.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import attrs
 import numpy as np
 
+from mrpbench_core.engine.execution.resources import ExecutionError, Resources
 from mrpbench_core.model.common.arrays import Bool, Int32
-from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -19,25 +19,15 @@ from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.world import Lift, World
 
 
-class ExecutionError(Exception):
-    """The execution cannot go on; the message says why."""
-
-
-class FacilityManager:
-    """Manages the facilities (doors and lifts) and mutexes of one execution."""
+class FacilityManager(Resources):
+    """The doors, lifts and mutexes of one execution with physics."""
 
     def __init__(self, world: World, problem: Problem, plan: Plan) -> None:
+        super().__init__(problem)
         self.facilities = Facilities(world)
-        self._resources = {resource.name: resource for resource in problem.roadmap.resources}
-        self._number = {name: index for index, name in enumerate(self._resources)}
         self._lifts = {lift.name: lift for lift in world.lifts}
         self._entrances = {lift.name: [g for g in self.facilities.doors if g.lift is lift] for lift in world.lifts}
         self._level = problem.roadmap.level
-        self._held: dict[str, list[int]] = {name: [] for name in self._resources}
-        self.holders: Mapping[str, Sequence[int]] = self._held
-        """The robots that hold each resource."""
-        self.ready: tuple[tuple[int, str], ...] = ()
-        """(robot, resource) pairs that robots may use."""
         self.adopt(problem, plan)
 
     def adopt(self, problem: Problem, plan: Plan) -> None:
@@ -54,31 +44,6 @@ class FacilityManager:
             if self._is_ready(robot, name, int(view.reached[robot]), state.facilities)
         )
         return attrs.evolve(view, granted=self.ready) if self.ready else view
-
-    def assign(self, orders: Orders) -> None:
-        """Release resources that are no longer requested, and assign those with room, the longest requested first.
-
-        Raises:
-            ExecutionError: the dispatcher requests a resource that does not exist.
-        """
-        self._asked = orders.requests
-        for name, holders in self._held.items():
-            if holders:
-                holders[:] = [robot for robot in holders if (robot, name) in orders.requests]
-        for robot, name in orders.requests:
-            if name not in self._resources:
-                raise ExecutionError(f"the dispatcher asked for {name!r}, which the roadmap does not have")
-            holders = self._held[name]
-            if robot not in holders and len(holders) < self._resources[name].capacity:
-                holders.append(robot)
-
-    def waits_for(self, robots: int) -> Int32:
-        """The number i4[n] of the resource that each robot has asked for and may not use yet, -1 = none."""
-        waits: Int32 = np.full(robots, -1, np.int32)
-        for robot, name in self._asked:
-            if waits[robot] < 0 and (robot, name) not in self.ready:
-                waits[robot] = self._number[name]
-        return waits
 
     def states(self, state: State) -> list[float]:
         """Positions of doors and lifts, in the order of `Facilities.names`; [] if the simulator has no facilities."""

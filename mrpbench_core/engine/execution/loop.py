@@ -1,4 +1,4 @@
-"""The loop that executes a plan: sense, dispatch, drive, record, once in every control period."""
+"""Executes a plan with physics: a simulator moves the robots, localizers and a navigator sense and drive."""
 
 from collections.abc import Sequence
 
@@ -11,15 +11,16 @@ from mrpbench_core.api.localizer import LocalizerSession
 from mrpbench_core.api.navigator import NavigatorSession
 from mrpbench_core.engine.contract_checks import ContractChecks, check_returned
 from mrpbench_core.engine.execution.arrivals import REST, Arrivals
+from mrpbench_core.engine.execution.control_loop import ControlLoop, ExecutionResult
 from mrpbench_core.engine.execution.crowds import FASTEST
 from mrpbench_core.engine.execution.cutting import DrivenSegments, shifted
 from mrpbench_core.engine.execution.destinations import heads
 from mrpbench_core.engine.execution.ending import Ending
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
-from mrpbench_core.engine.execution.loop_inputs import ExecutionResult, LoopInputs
+from mrpbench_core.engine.execution.loop_inputs import LoopInputs
 from mrpbench_core.engine.execution.observed_controller import observed
 from mrpbench_core.engine.execution.reactions import Reactions
-from mrpbench_core.engine.execution.recorder import Sample
+from mrpbench_core.engine.execution.recorder import Recorder, Sample
 from mrpbench_core.engine.execution.replanning import Revision
 from mrpbench_core.engine.execution.standstill import Standstill
 from mrpbench_core.engine.execution.visits import Visits
@@ -38,8 +39,8 @@ from mrpbench_core.model.worlds.facilities import Facilities
 ABORTED = int(Mode.ABORTED)
 
 
-class ExecutionLoop:
-    """Executes a plan, control period by control period.
+class ExecutionLoop(ControlLoop):
+    """Executes a plan with physics.
 
     Raises:
         BrokenContractError: a component returned what its contract rules out.
@@ -49,15 +50,15 @@ class ExecutionLoop:
 
     def __init__(self, inputs: LoopInputs) -> None:
         self._inputs = inputs
+        period, limit_s = inputs.context.period, inputs.limit_s
+        super().__init__(period, limit_s, inputs.faults, inputs.delays, inputs.recorder)
         context, components = inputs.context, inputs.components
         plan = context.result.plan
         assert plan is not None
         robots = len(context.fleet)
         self._last_start = float(inputs.noise.start_delay.max(initial=0.0))
         """Simulated second from which on all robots may drive."""
-        self._step = self._revision = 0
-        self._now = 0.0
-        """Simulated seconds at the beginning of this control period."""
+        self._revision = 0
         self._driven = DrivenSegments(robots)
         """The segments that are not part of the plan any more."""
         self._causes: dict[int, str] = {}
@@ -102,30 +103,16 @@ class ExecutionLoop:
             mode=np.full(robots, Mode.WAITING, "u1"),
         )
 
-    def run(self) -> ExecutionResult:
-        """Run until every robot has arrived or given up, or the simulated time is over."""
-        while True:
-            self._inputs.recorder.events(self._inputs.faults.update(self._now))
-            observation = self._sense()
-            self._dispatch(observation)
-            self._drive(observation)
-            result = self._result()
-            self._record(observation, last=result is not None)
-            if result is not None:
-                self._inputs.recorder.flush()
-                return result
-            self._simulate()
-
-    def _sense(self) -> FleetObservation:
-        """The current data of sensors and localizers."""
+    def _sense(self) -> None:
         inputs, state = self._inputs, self._state
         odometry = inputs.noise.odometry(state)
         scans = inputs.faults.scans(inputs.noise.scans(self._checks.scans(inputs.simulation.scans(), self._now)))
         truth = state.pose if inputs.components.needs_truth else None
         estimate = self._checks.estimate(self._localizer.update(self._now, odometry, scans, truth))
-        return FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
+        level = state.level
+        self._observation = FleetObservation(estimate=estimate, odometry=odometry, level=level, scans=scans)
 
-    def _dispatch(self, observation: FleetObservation) -> None:
+    def _dispatch(self) -> None:
         """Release segments and grant resources; ask for a new plan, and adopt one that is due.
 
         While a new plan is pending the dispatcher is not asked, so that nothing more is released.
@@ -135,7 +122,7 @@ class ExecutionLoop:
             revision=self._revision,
             reached=self._motion.reached,
             cleared=self._motion.cleared,
-            pose=observation.estimate.pose,
+            pose=self._observation.estimate.pose,
             level=self._state.level,
             mode=self._motion.mode,
         )
@@ -148,7 +135,7 @@ class ExecutionLoop:
             now_counted = attrs.evolve(view, revision=self._revision, reached=reached, cleared=cleared)
             view = self._inputs.faults.heard(now_counted)
             self._ask_dispatcher(view)
-        self._facility_manager.assign(self._orders)
+        self._facility_manager.assign(now, self._orders.requests)
 
     def _replan(self, view: FleetView) -> None:
         """Ask for a new plan if one is needed."""
@@ -208,26 +195,25 @@ class ExecutionLoop:
         self._inputs.recorder.events((Event(stamp=now, kind="replan_failed", detail=f"{new.reason}; {fault}"),))
         return False
 
-    def _drive(self, observation: FleetObservation) -> None:
+    def _drive(self) -> None:
         """Command the robots; nothing is released to a robot that has not started yet."""
         orders, delay = self._orders, self._inputs.noise.start_delay
         if self._now < self._last_start:
             orders = attrs.evolve(orders, released=np.where(self._now < delay, 0, orders.released))
         if self._inputs.faults:
             orders = attrs.evolve(orders, released=self._inputs.faults.received(orders.released))
-        self._motion = self._checks.motion(self._navigator.step(self._now, observation, orders))
+        self._motion = self._checks.motion(self._navigator.step(self._now, self._observation, orders))
         for event in self._motion.events:
             if event.kind == "aborted":
                 self._causes[event.robot] = event.detail
 
     def _result(self) -> ExecutionResult | None:
-        """Return the end of the execution, or None if it continues."""
         arrivals = self._arrivals
         self._confirmed = arrivals.update(self._now, self._state, self._motion)
         self._visits.update(self._state.pose[:, :2], self._state.level, self._motion.reached)
         gave_up = self._motion.mode == ABORTED
         self._inputs.progress(self._now, arrivals.arrived)
-        tasks, over = self._inputs.tasks, self._now >= self._inputs.limit_s
+        tasks, over = self._inputs.tasks, self._now >= self._limit_s
         if tasks is not None:
             tasks.judge(self._now, arrivals.arrived, self._visits.count)
             over |= tasks.ended
@@ -297,15 +283,14 @@ class ExecutionLoop:
             dispatcher_waits_for=lambda robot: self._checks.waits_for(self._dispatcher.waits_for(robot)),
         ).reasons()
 
-    def _record(self, observation: FleetObservation, last: bool) -> None:
+    def _record(self, recorder: Recorder, last: bool) -> None:
         """Record this control period, and show it to hooks."""
-        inputs, now, state, recorder = self._inputs, self._now, self._state, self._inputs.recorder
+        inputs, now, state, observation = self._inputs, self._now, self._state, self._observation
         recorder.scans(observation.scans)
         if inputs.evaluations is not None:
             recorder.evaluations(now, inputs.evaluations.take())
         if inputs.delays:
             count = self._driven.count
-            recorder.events(inputs.delays.begun(now))
             recorder.events(inputs.delays.attacked(now, self._motion.reached + count, self._orders.released + count))
         recorder.events(self._motion.events)
         confirmed = self._driven.motion(self._confirmed)
@@ -317,7 +302,7 @@ class ExecutionLoop:
                 odometry=observation.odometry,
                 orders=self._driven.orders(self._orders),
                 motion=confirmed,
-                waits_for=self._facility_manager.waits_for(len(state.pose)),
+                waits_for=self._facility_manager.waits_for(),
                 facility=self._facility_manager.states(state),
                 movers=inputs.crowds.movers if inputs.crowds.members else None,
             )
@@ -325,8 +310,7 @@ class ExecutionLoop:
         if inputs.hooks.has("mrpbench_stepped"):
             inputs.hooks.call("mrpbench_stepped", now=now, state=state, observation=observation, routes=self._routes)
 
-    def _simulate(self) -> None:
-        """Let one control period pass."""
+    def _advance(self) -> None:
         inputs = self._inputs
         commands = self._facility_manager.commands(self._motion.reached, self._orders.released, self._state)
         commands = inputs.crowds.doors(self._state, commands)
@@ -339,9 +323,6 @@ class ExecutionLoop:
             twist = inputs.faults.driven(twist)
         driven = Inputs(twist=twist, facilities=commands)
         self._state = self._checks.state(inputs.simulation.step(inputs.crowds.inputs(driven)), inputs.crowds.push)
-        self._step += 1
-        self._now = self._step * inputs.context.period
-        inputs.recorder.contacts(self._now, self._state)
 
 
 def _reach(context: RunContext) -> NDArray[np.float64]:

@@ -1,6 +1,6 @@
-"""The components and inputs of the execution loop, and its result."""
+"""The components and inputs of an execution with physics."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import Self
 
 import attrs
@@ -74,22 +74,6 @@ def granted_localizer(config: RunConfig) -> str | None:
     if localizer is None or not localizer.needs_truth or is_of(type(localizer), GROUND_TRUTH):
         return None
     return str(origin(type(localizer))["name"])
-
-
-@attrs.frozen(kw_only=True)
-class ExecutionResult:
-    """The end of an execution."""
-
-    succeeded: bool
-    """Every robot completed the last move of its path; with tasks that come over time: no robot gave up, and
-    the planner found plans."""
-    gave_up: tuple[str, ...]
-    """Robots that gave up, each with the cause if the navigator named one."""
-    simulated_s: float
-    contradiction: str | None = None
-    """What the navigator reports and the true poses contradict."""
-    unarrived: Mapping[int, str] = attrs.field(factory=dict)
-    """Why robots did not arrive, by robot; only with faults."""
 
 
 @attrs.frozen(kw_only=True)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.api.dispatcher import Dispatcher, DispatcherSession, RepeatedSession
+from mrpbench_core.api.dispatcher import BatchSession, Dispatcher, DispatcherSession
 from mrpbench_core.engine.contract_checks import ContractChecks, check_returned
 from mrpbench_core.engine.execution.scheduled_paths import ScheduledPaths
 from mrpbench_core.model.runs.run import RunContext
@@ -32,10 +32,10 @@ class Schedule:
         self._ready = session.copied()
         return session
 
-    def repeated(self, executions: int) -> RepeatedSession | None:
+    def batch(self, executions: int) -> BatchSession | None:
         """A session for so many executions at once, where the dispatcher can make one."""
         self._ready = self._ready or self._start()
-        return self._ready.repeated(executions)
+        return self._ready.batch(executions)
 
     def checks(self) -> ContractChecks:
         """Checks of what the session of one execution returns."""

@@ -44,7 +44,7 @@ class Orders:
 
 
 @attrs.frozen(kw_only=True)
-class RepeatedOrders:
+class BatchOrders:
     """The orders for d executions of one plan; see `Orders`. There are neither requests nor limits of speed."""
 
     released: Int = array("i8")

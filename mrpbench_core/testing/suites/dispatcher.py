@@ -9,7 +9,7 @@ import numpy as np
 from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSession
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.common.arrays import Int32
-from mrpbench_core.model.execution.orders import FleetView, Orders, RepeatedOrders
+from mrpbench_core.model.execution.orders import BatchOrders, FleetView, Orders
 from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Resource
@@ -140,7 +140,7 @@ class DispatcherConformance(ComponentConformance):
     def test_many_executions_at_once_are_those_of_each_session(self) -> None:
         for name, (asked, plan) in plans().items():
             executors = [delayed(asked, plan, seed) for seed in SEEDS]
-            together = self.make().start(asked, plan).repeated(len(executors))
+            together = self.make().start(asked, plan).batch(len(executors))
             if together is None:
                 continue
             sessions = [self.make().start(asked, plan) for _ in executors]
@@ -217,7 +217,7 @@ def run(
         raise Fault(f"{name}: {fault}") from None
 
 
-def in_step(orders: RepeatedOrders, execution: int) -> set[frozenset[tuple[int, int]]]:
+def in_step(orders: BatchOrders, execution: int) -> set[frozenset[tuple[int, int]]]:
     """The groups that rotate in one execution, as in `Orders`."""
     rows = orders.in_step[orders.in_step[:, 1] == execution].tolist()
     groups = {row[0] for row in rows}

@@ -15,8 +15,8 @@ from importlib.metadata import entry_points
 
 import attrs
 import numpy as np
+from mrpbench_tests.execution.batch_executor import BatchExecutor
 from mrpbench_tests.execution.meetings import meetings
-from mrpbench_tests.execution.repeated_executor import RepeatedExecutor
 from mrpbench_tests.instances.kinds import KINDS
 from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources, wander
 from mrpbench_tests.instances.random_problems import random_grid_problem
@@ -28,7 +28,7 @@ from mrpbench_core.config.delays import Delays
 from mrpbench_core.engine.execution.commitments import commitments
 from mrpbench_core.engine.execution.delays import DrawnDelays
 from mrpbench_core.engine.execution.worst_case import Adversary
-from mrpbench_core.model.execution.orders import RepeatedOrders
+from mrpbench_core.model.execution.orders import BatchOrders
 from mrpbench_core.model.planning.plan import Budget, Plan
 from mrpbench_core.model.planning.problem import Feature, features_of
 from mrpbench_core.testing.execution.resource_manager import ResourceManager
@@ -133,7 +133,7 @@ class AtOnce:
     def update(self, now):
         executor = self.executor
         orders = self.session.update(now, np.stack([executor.reached, executor.cleared]))
-        assert isinstance(orders, RepeatedOrders)
+        assert isinstance(orders, BatchOrders)
         return orders.released, orders.in_step, np.full(orders.released.shape, np.inf)
 
 
@@ -166,7 +166,7 @@ def replanned(problem, plan, planner, released, executor, random):
 def execute(problem, plan, planner, dispatcher, delays, situation, period, replans, random):
     """Execute a plan many times; return the kind of session, the number of new plans, the executor and the faults."""
     session = dispatcher.start(problem, plan)
-    executor, changes = RepeatedExecutor(problem, plan, period, random), 0
+    executor, changes = BatchExecutor(problem, plan, period, random), 0
     if delays.worst_case:
         adversary = Adversary(problem, plan, delays.worst_case * delays.tick)
     drawn = DrawnDelays(delays, len(problem), situation, 0, [0])
@@ -186,7 +186,7 @@ def execute(problem, plan, planner, dispatcher, delays, situation, period, repla
         changes += 1
     one = executor.drained.all() or not (delays.p_delay or delays.speed)  # any other draw is the same
     slow = one or any(field.name == "max_deterministic_time" for field in attrs.fields(type(dispatcher)))
-    at_once = None if slow else session.repeated(DRAWS["at once"])
+    at_once = None if slow else session.batch(DRAWS["at once"])
     kind = "at once" if at_once is not None else "copied" if not slow and session.copied() is not None else "slow"
     executor.times(DRAWS[kind])
     if at_once is not None:

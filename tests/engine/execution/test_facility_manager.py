@@ -13,8 +13,9 @@ from mrpbench_tests.fixtures.places import PLACES, furnished_building, problem_b
 
 from mrpbench_core.api.dispatcher import DispatchError
 from mrpbench_core.builtin.worlds.shipped import Hospital
-from mrpbench_core.engine.execution.facility_manager import ExecutionError, FacilityManager
-from mrpbench_core.model.execution.orders import FleetView, Orders
+from mrpbench_core.engine.execution.facility_manager import FacilityManager
+from mrpbench_core.engine.execution.resources import ExecutionError
+from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.plan import Budget, Plan
 from mrpbench_core.model.planning.roadmap import Resource
@@ -154,24 +155,24 @@ def two_before_the_door():
     return world, problem, Plan(paths=paths)
 
 
-def asking(*pairs):
-    return Orders(released=np.zeros(2, "i4"), requests=pairs)
+def assign(facility_manager, *pairs):
+    facility_manager.assign(0.0, pairs)
 
 
 def test_a_resource_is_granted_to_the_first_request_and_to_the_next_when_it_is_free():
     world, problem, plan = two_before_the_door()
     shut = {"door": 0.0, "lift/entrance": 0.0, "lift": 0.0}
     facility_manager, view, state = stand(world, problem, plan, shut)
-    facility_manager.assign(asking((1, "door"), (0, "door")))
-    assert facility_manager.waits_for(2).tolist() == [0, 0], "no robot may use it before it is open"
+    assign(facility_manager, (1, "door"), (0, "door"))
+    assert facility_manager.waits_for().tolist() == [0, 0], "no robot may use it before it is open"
     zero = np.zeros(2, "i4")
     assert facility_manager.commands(zero, zero, state)["door"] == 1.0
     open_ = attrs.evolve(state, facilities=shut | {"door": 1.0})
     assert facility_manager.with_grants(view, open_).granted == ((1, "door"),)
-    assert facility_manager.waits_for(2).tolist() == [0, -1]
-    facility_manager.assign(asking((0, "door")))
+    assert facility_manager.waits_for().tolist() == [0, -1]
+    assign(facility_manager, (0, "door"))
     assert facility_manager.with_grants(view, open_).granted == ((0, "door"),)
-    facility_manager.assign(asking())
+    assign(facility_manager)
     assert facility_manager.with_grants(view, open_).granted == ()
     assert facility_manager.commands(zero, zero, open_)["door"] == 0.0
 
@@ -181,13 +182,13 @@ def test_a_mutex_is_granted_at_once_to_as_many_as_it_has_room_for():
     mutex = Resource(name="aisle", kind="mutex", capacity=1, vertices=(0,))
     roadmap = attrs.evolve(problem.roadmap, resources=(mutex,))
     facility_manager, view, state = stand(world, attrs.evolve(problem, roadmap=roadmap), plan, {})
-    facility_manager.assign(asking((0, "aisle"), (1, "aisle")))
+    assign(facility_manager, (0, "aisle"), (1, "aisle"))
     assert facility_manager.with_grants(view, state).granted == ((0, "aisle"),)
-    assert facility_manager.waits_for(2).tolist() == [-1, 0]
+    assert facility_manager.waits_for().tolist() == [-1, 0]
     assert facility_manager.commands(np.zeros(2, "i4"), np.zeros(2, "i4"), state) == {}
     roomy = attrs.evolve(roadmap, resources=(attrs.evolve(mutex, capacity=2),))
     facility_manager, view, state = stand(world, attrs.evolve(problem, roadmap=roomy), plan, {})
-    facility_manager.assign(asking((0, "aisle"), (1, "aisle")))
+    assign(facility_manager, (0, "aisle"), (1, "aisle"))
     assert facility_manager.with_grants(view, state).granted == ((0, "aisle"), (1, "aisle"))
 
 
@@ -195,7 +196,7 @@ def test_an_unknown_resource_cannot_be_requested():
     world, problem, plan = two_before_the_door()
     facility_manager, _, _ = stand(world, problem, plan, {})
     with pytest.raises(ExecutionError, match="the dispatcher asked for 'gate', which the roadmap does not have"):
-        facility_manager.assign(asking((0, "gate")))
+        assign(facility_manager, (0, "gate"))
 
 
 def test_a_simulator_without_doors_cannot_let_anybody_through_one():
@@ -203,7 +204,7 @@ def test_a_simulator_without_doors_cannot_let_anybody_through_one():
     facility_manager, _, state = stand(world, problem, plan, {})
     zero = np.zeros(2, "i4")
     assert facility_manager.commands(zero, zero, state) == {}
-    facility_manager.assign(asking((0, "door")))
+    assign(facility_manager, (0, "door"))
     with pytest.raises(ExecutionError, match="supports neither doors nor lifts"):
         facility_manager.commands(zero, zero, state)
 
@@ -238,6 +239,6 @@ def test_a_lift_that_is_requested_from_a_level_without_it_goes_to_where_the_robo
     plan = Plan(paths=(path_through(problem.roadmap, [number[name] for name in names]),))
     facility_manager, view, state = stand(world, problem, plan, Facilities(world).initial_state())
     zero = np.zeros(1, "i4")
-    facility_manager.assign(Orders(released=zero, requests=((0, "lift_c"),)))
+    assign(facility_manager, (0, "lift_c"))
     assert facility_manager.with_grants(view, state).granted == ()
     assert facility_manager.commands(zero, zero, state)["lift_c"] == world.levels[1].elevation

@@ -44,9 +44,13 @@ def executed(context, dispatcher, delays=None, limit=3000.0):
     chunks = []
     recorder = Recorder(1 / PERIOD, PERIOD, chunks.append)
     stream = DelayStream(delays or Delays(), len(context.problem), 3, 0)
-    arrived, seconds = ScheduleLoop(Schedule(context, dispatcher), stream, recorder).run(limit)
+    result = ScheduleLoop(Schedule(context, dispatcher), stream, limit, recorder).run()
     names = {name for chunk in chunks for name in chunk}
-    return arrived, seconds, {name: np.concatenate([c[name] for c in chunks if name in c]) for name in names}
+    return (
+        result.succeeded,
+        result.simulated_s,
+        {name: np.concatenate([c[name] for c in chunks if name in c]) for name in names},
+    )
 
 
 @pytest.fixture
@@ -98,7 +102,9 @@ def test_a_robot_takes_each_segment_at_its_speed(context_of, straight):
     problem, plan = straight
     delays = Delays(speed=0.5)
     drawn = DelayStream(delays, 1, 3, 0)
-    expected = sum(problem.roadmap.tick / float(drawn.speed(np.array([segment]))[0]) for segment in range(10))
+    expected = sum(
+        problem.roadmap.tick / float(drawn.speed(np.array([0]), np.array([segment]))[0]) for segment in range(10)
+    )
     seconds = executed(context_of(problem, plan), Adg(), delays)[1]
     assert expected <= seconds + 1e-9 < expected + PERIOD + 1e-9
 
@@ -208,8 +214,9 @@ def test_robots_arrive_when_they_do_in_the_recording_and_also_without_one(contex
     context, late = context_of(problem, plan), Delays(p_delay=0.05, max_delay=8, speed=0.2)
     loops = []
     for recorder in (Recorder(1 / PERIOD, PERIOD, (chunks := []).append), None):
-        loops.append(ScheduleLoop(Schedule(context, Adg()), DelayStream(late, len(problem), seed, 0, draw=2), recorder))
-        assert loops[-1].run(3000.0)[0]
+        delays = DelayStream(late, len(problem), seed, 0, (2,))
+        loops.append(ScheduleLoop(Schedule(context, Adg()), delays, 3000.0, recorder))
+        assert loops[-1].run().succeeded
     np.testing.assert_array_equal(loops[0].arrival, loops[1].arrival)
     np.testing.assert_array_equal(loops[0].waiting, loops[1].waiting)
     reached = np.concatenate([chunk["reached"] for chunk in chunks if "reached" in chunk])

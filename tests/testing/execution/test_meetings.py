@@ -3,8 +3,8 @@
 import numpy as np
 from hypothesis import event, given, settings
 from hypothesis import strategies as st
+from mrpbench_tests.execution.batch_executor import BatchExecutor
 from mrpbench_tests.execution.meetings import meetings
-from mrpbench_tests.execution.repeated_executor import RepeatedExecutor
 from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources
 
 from mrpbench_core.api import DispatchError
@@ -42,7 +42,7 @@ def test_executions_in_which_robots_break_rules_are_those_whose_plans_the_valida
     problem, plan = (random_plan_with_resources if resources else random_plan)(random)
     for resource in problem.roadmap.resources:
         object.__setattr__(resource, "setup_ticks", 0)  # executions do not know these
-    executor = RepeatedExecutor(problem, plan, 0.5, random)
+    executor = BatchExecutor(problem, plan, 0.5, random)
     executor.times(EXECUTIONS)
     delays = DrawnDelays(DELAYS, len(problem), seed, 0, range(EXECUTIONS))
     free, all_of = np.full(executor.reached.shape, np.inf), np.tile(executor.length, (EXECUTIONS, 1))
@@ -64,13 +64,13 @@ def test_one_session_for_all_executions_releases_what_a_session_for_each_does_fr
         return
     begun = []
     until, late = int(random.integers(0, 12)), int(random.integers(2**31))
-    alone = RepeatedExecutor(problem, plan, 0.5, np.random.default_rng(late))
+    alone = BatchExecutor(problem, plan, 0.5, np.random.default_rng(late))
     proceed([session], alone, until, 0)
     for at_once in (False, True):
-        executor = RepeatedExecutor(problem, plan, 0.5, np.random.default_rng(late))
+        executor = BatchExecutor(problem, plan, 0.5, np.random.default_rng(late))
         proceed([Adg(lookahead=session.options.lookahead).start(problem, plan)], executor, until, 0)
         executor.times(EXECUTIONS)
-        sessions = session.repeated(EXECUTIONS) if at_once else [session.copied() for _ in range(EXECUTIONS)]
+        sessions = session.batch(EXECUTIONS) if at_once else [session.copied() for _ in range(EXECUTIONS)]
         proceed(sessions, executor, 5000, 1)
         assert executor.drained.all()
         assert not meetings(executor)

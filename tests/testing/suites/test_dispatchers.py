@@ -6,12 +6,12 @@ import numpy as np
 from mrpbench_tests.variant import variant
 
 from mrpbench_core.api import (
+    BatchSession,
     Dispatcher,
     DispatcherSession,
-    RepeatedSession,
 )
 from mrpbench_core.builtin.dispatchers.adg import Adg
-from mrpbench_core.model.execution.orders import Orders, RepeatedOrders
+from mrpbench_core.model.execution.orders import BatchOrders, Orders
 from mrpbench_core.testing import DispatcherConformance, failed_checks, suite_for
 
 
@@ -80,9 +80,9 @@ def test_a_dispatcher_that_ignores_mutexes_need_not_keep_robots_apart():
 
 
 def test_a_dispatcher_that_releases_more_in_many_executions():
-    class Everything(RepeatedSession):
+    class Everything(BatchSession):
         def __init__(self, executions, length):
-            self.orders = RepeatedOrders(released=np.tile(length, (executions, 1)))
+            self.orders = BatchOrders(released=np.tile(length, (executions, 1)))
 
         def update(self, now, seen):
             return self.orders

@@ -86,9 +86,9 @@ class FacilityExecutor:
         view = self.facility_manager.with_grants(view, state)
         self.granted = view.granted
         self.orders = self.session.update(0.0, view)
-        self.facility_manager.assign(self.orders)
+        self.facility_manager.assign(0.0, self.orders.requests)
         self.released = self.orders.released
-        waits = self.facility_manager.waits_for(robots) >= 0
+        waits = self.facility_manager.waits_for() >= 0
         self.waited = np.where(waits, self.waited + 1, 0)
         commands = self.facility_manager.commands(self.reached, self.released, state)
         doing = self.facilities.advance(

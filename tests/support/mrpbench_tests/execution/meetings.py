@@ -13,7 +13,7 @@ from mrpbench_core.model.common.arrays import Bool, Int
 from mrpbench_core.model.common.geometry import segment_distance
 from mrpbench_core.model.planning.conflicts import TOLERANCE
 from mrpbench_core.model.planning.problem import Feature, Problem
-from mrpbench_tests.execution.repeated_executor import NOT_YET, RepeatedExecutor
+from mrpbench_tests.execution.batch_executor import NOT_YET, BatchExecutor
 
 _AT_ONCE = 1 << 21
 """Pairs of uses that are compared at once, counted in all executions."""
@@ -34,7 +34,7 @@ class Uses(NamedTuple):
     end: Int
 
 
-def uses_of(executor: RepeatedExecutor) -> Uses:
+def uses_of(executor: BatchExecutor) -> Uses:
     """What the robots of all executions used, robot after robot, in the order of their paths."""
     problem = executor.problem
     stays = problem.rules.at_goal == "stay"
@@ -65,7 +65,7 @@ def uses_of(executor: RepeatedExecutor) -> Uses:
     return Uses(user, tail, head, edge, begin, end)
 
 
-def meetings(executor: RepeatedExecutor) -> list[tuple[int, str]]:
+def meetings(executor: BatchExecutor) -> list[tuple[int, str]]:
     """The executions in which robots broke a rule, with a sentence on the first break in each."""
     uses = uses_of(executor)
     found: dict[int, str] = {}

@@ -1,7 +1,5 @@
 """Many executions at once take the times, bit for bit, that each of them takes alone."""
 
-import copy
-
 import attrs
 import numpy as np
 import pytest
@@ -9,16 +7,15 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources
 
-from mrpbench_core.api import DispatchError, DispatcherSession, RepeatedSession
+from mrpbench_core.api import BatchSession, DispatchError, DispatcherSession
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.config.delays import Delays
-from mrpbench_core.engine.execution.delays import DelayStream, DrawnDelays
-from mrpbench_core.engine.execution.repeated_loop import RepeatedLoop
+from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.worst_case import Adversary
-from mrpbench_core.model.execution.orders import RepeatedOrders
+from mrpbench_core.model.execution.orders import BatchOrders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.testing.drawing import build
 from mrpbench_core.testing.instances.roadmaps import path_through, two_way_grid
@@ -38,9 +35,9 @@ DISPATCHERS = st.builds(Adg, lookahead=st.sampled_from([1, 2, 8]), group_margin=
 
 def alone(schedule, delays, seed, draw, limit, adversary):
     """Arrival and waiting of one execution."""
-    stream = DelayStream(delays, len(schedule.context.problem), seed, 0, copy.deepcopy(adversary), draw)
-    loop = ScheduleLoop(schedule, stream)
-    loop.run(limit)
+    stream = DelayStream(delays, len(schedule.context.problem), seed, 0, (draw,), adversary)
+    loop = ScheduleLoop(schedule, stream, limit)
+    loop.run()
     return loop.arrival, loop.waiting
 
 
@@ -48,14 +45,13 @@ def require_equal(schedule, delays, seed, executions, limit):
     """Compare executions at once with each of them alone."""
     problem, attack = schedule.context.problem, delays.worst_case * delays.tick
     adversary = Adversary(problem, schedule.plan, attack) if attack else None
-    session = schedule.repeated(executions)
+    session = schedule.batch(executions)
     draws = range(1, executions + 1)
-    drawn = DrawnDelays(delays, len(problem), seed, 0, draws)
-    adversaries = [copy.deepcopy(adversary) for _ in draws] if adversary else []
-    found = RepeatedLoop(schedule, session, drawn, adversaries).run(limit)
+    loop = ScheduleLoop(schedule, DelayStream(delays, len(problem), seed, 0, draws, adversary), limit, batch=session)
+    loop.run()
     each = [alone(schedule, delays, seed, draw, limit, adversary) for draw in draws]
-    for ours, theirs in zip(found, zip(*each, strict=True), strict=True):
-        assert ours.tobytes() == np.stack(theirs).tobytes()
+    for ours, theirs in zip((loop.arrival, loop.waiting), zip(*each, strict=True), strict=True):
+        assert ours.tobytes() == np.concatenate(theirs).tobytes()
 
 
 @settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -87,9 +83,9 @@ def test_plans_that_need_resources_or_profiles_of_speed_are_executed_one_by_one(
     sessions = [Adg().start(*plan) for plan in plans]
     assert any(session.graph.requests for session in sessions)
     for session in sessions:
-        assert (session.repeated(2) is None) == bool(session.graph.requests)
-    assert Adg(speed_profiles=True).start(*random_plan(random)).repeated(2) is None
-    assert DispatcherSession.repeated(sessions[0], 2) is None
+        assert (session.batch(2) is None) == bool(session.graph.requests)
+    assert Adg(speed_profiles=True).start(*random_plan(random)).batch(2) is None
+    assert DispatcherSession.batch(sessions[0], 2) is None
 
 
 @pytest.mark.parametrize(
@@ -104,13 +100,13 @@ def test_plans_that_need_resources_or_profiles_of_speed_are_executed_one_by_one(
     ],
 )
 def test_orders_that_break_the_contract_end_the_run(context_of, released, in_step, what):
-    class Breaking(RepeatedSession):
+    class Breaking(BatchSession):
         def update(self, now, seen):
-            return RepeatedOrders(released=released(now, seen.shape[2]), in_step=in_step)
+            return BatchOrders(released=released(now, seen.shape[2]), in_step=in_step)
 
     plans = (random_plan(np.random.default_rng(seed)) for seed in range(99))
     problem, plan = next(found for found in plans if min(map(len, found[1].paths)) > 1)
     schedule = Schedule(context_of(problem, plan), Adg(group_margin=0.0))
-    loop = RepeatedLoop(schedule, Breaking(), DrawnDelays(Delays(), len(problem), 0, 0, (1, 2)))
+    loop = ScheduleLoop(schedule, DelayStream(Delays(), len(problem), 0, 0, (1, 2)), 99.0, batch=Breaking())
     with pytest.raises(BrokenContractError, match=what):
-        loop.run(99.0)
+        loop.run()

@@ -20,7 +20,7 @@ NOT_YET = 1 << 60
 """The step of what has not happened; no execution has so many."""
 
 
-class RepeatedExecutor:
+class BatchExecutor:
     """Moves the robots of d executions.
 
     Args:
@@ -119,7 +119,7 @@ class RepeatedExecutor:
 
         Args:
             released: i8[d,n].
-            in_step: i8[k,4] as in `RepeatedOrders`.
+            in_step: i8[k,4] as in `BatchOrders`.
             limit: m/s f8[d,n].
             delays: of d draws.
             adversaries: one for each execution, or none.
