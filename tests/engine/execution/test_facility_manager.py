@@ -10,9 +10,9 @@ from hypothesis import event, given, settings
 from hypothesis import strategies as st
 from mrpbench_tests.execution.facility_executor import FacilityExecutor
 from mrpbench_tests.fixtures.places import PLACES, furnished_building, problem_between
+from mrpbench_worlds_standard.shipped import Hospital
 
 from mrpbench_core.api.dispatcher import DispatchError
-from mrpbench_core.builtin.worlds.shipped import Hospital
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
 from mrpbench_core.engine.execution.resources import ExecutionError
 from mrpbench_core.model.execution.orders import FleetView
@@ -21,7 +21,7 @@ from mrpbench_core.model.planning.plan import Budget, Plan
 from mrpbench_core.model.planning.roadmap import Resource
 from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.world import Door, Lane, Level, Vertex, World
-from mrpbench_core.testing.instances.roadmaps import path_through
+from mrpbench_core.testing.drawing import path_through
 
 ENDS = [f"{name}_{level}" for name, level in product(PLACES, (0, 1)) if name not in ("landing", "cabin")]
 LONGEST = 6000

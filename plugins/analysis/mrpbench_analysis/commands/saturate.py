@@ -1,0 +1,226 @@
+"""`mrpbench saturate STUDY [key=value…]`: find the rate of tasks at which queues begin to grow."""
+
+import argparse
+import json
+import signal
+import sys
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
+from contextlib import nullcontext, redirect_stdout
+from pathlib import Path
+from typing import Any
+
+import attrs
+
+from mrpbench_analysis.saturation import TOLERANCE, Growth, growth, next_rate, saturation
+from mrpbench_core.cli.input.arguments import add_configuration, split_words
+from mrpbench_core.cli.output.progress import Printed
+from mrpbench_core.cli.output.table import print_json, print_table
+from mrpbench_core.engine.loading.runs import StudyRun, StudyRuns
+from mrpbench_core.engine.processes.slots import slots_of_this_process
+from mrpbench_core.engine.study.options import StudyOptions
+from mrpbench_core.engine.study.reading import read_study
+from mrpbench_core.engine.study.study import run_study
+from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.model.runs.status import RunStatus
+from mrpbench_core.report.reading.axes import NO_AXES, find_axes, name_axes
+
+COLUMN = ".open_growth"
+UNITS = {"rate": "tasks/min", "scale": "1/scale"}
+"""Options of task sources that give the rate; the rate of a trace is the reciprocal of its option."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.epilog = (
+        f"Queues are bounded at a rate if fewer than {TOLERANCE:.0%} of the tasks pile up, and grow if more do, each"
+        " with 95 % confidence over seeds. Exit code: 0 every saturation rate has an interval, 1 some have none, 2 the"
+        " configuration is wrong, 130 interrupted (the same command continues)."
+    )
+    add_configuration(parser)
+    parser.add_argument("--out", metavar="DIR", help="results folder (default: results/NAME-saturate)")
+    parser.add_argument("--workers", type=int, default=1, metavar="N", help="number of runs at a time (default: 1)")
+    parser.add_argument(
+        "--resolution",
+        type=float,
+        default=0.05,
+        metavar="X",
+        help="least distance between neighbouring rates, as a share from 0.01 to 1 (default: %(default)s)",
+    )
+    parser.add_argument("--json", action="store_true", help="print the result as JSON; progress goes to stderr")
+
+
+@attrs.define
+class Search:
+    """The search of one combination."""
+
+    label: str
+    first: float
+    tried: dict[float, Growth] = attrs.field(factory=dict)
+    failed: dict[float, int] = attrs.field(factory=dict)
+    """Runs that did not succeed, by rate; their growth counts too."""
+    fault: str | None = None
+
+    def next(self, resolution: float) -> float | None:
+        """The rate to try, or None at the end."""
+        verdicts = {rate: found.verdict for rate, found in self.tried.items()}
+        return None if self.fault else next_rate(verdicts, self.first, resolution)
+
+    @property
+    def interval(self) -> tuple[float | None, float | None]:
+        """The interval of the saturation rate."""
+        return saturation({rate: found.verdict for rate, found in self.tried.items()})
+
+    def judge(self, rate: float, records: Sequence[Mapping[str, Any]]) -> None:
+        """Add the growth that the records of a rate show; seeds are the sample."""
+        shares: dict[int, list[float]] = defaultdict(list)
+        for record in records:
+            metrics = record.get("metrics") or {}
+            share = next((value for name, value in metrics.items() if name.endswith(COLUMN)), None)
+            if share is None:
+                why = "fewer than two tasks arrive after the warm-up, or the run was not measured"
+                self.fault = f"at {rate:.4g}, run {record['run_id']} ({record['status']}) has no growth: {why}"
+                return
+            shares[record["seed"]].append(share)
+        self.tried[rate] = growth([sum(values) / len(values) for values in shares.values()])
+        self.failed[rate] = sum(record["status"] != RunStatus.SUCCEEDED for record in records)
+
+    def row(self, rate: float) -> list[str]:
+        """What was found at a rate."""
+        found = self.tried[rate]
+        failed = f"{self.failed[rate]} failed" if self.failed[rate] else ""
+        return [f"{rate:.4g}", f"{found.mean:.3f}", f"{found.low:.3f}", f"{found.high:.3f}", found.verdict, failed]
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Search the rates and print them."""
+    files, overrides = split_words(arguments.words)
+    if len(files) > 1:
+        raise InputError(f"{files[1]}: give one study at a time")
+    if not 0.01 <= arguments.resolution <= 1:
+        raise InputError(f"--resolution {arguments.resolution:g}: from 0.01 to 1")
+    with slots_of_this_process() as slots:
+        study = _read(files[0], overrides)
+        option = _option(study)
+        searches = _searches(study, option)
+        out = Path(arguments.out or f"results/{study.name}-saturate")
+        signal.signal(signal.SIGTERM, signal.default_int_handler)  # batch systems end jobs with SIGTERM
+        with redirect_stdout(sys.stderr) if arguments.json else nullcontext():
+            while wanted := _wanted(searches, arguments.resolution):
+                for rate, keys in wanted.items():
+                    print(f"trying {rate:.4g} {UNITS[option]}: {'; '.join(searches[key].label for key in keys)}")
+                options = StudyOptions(overrides=overrides, out=out, workers=arguments.workers, progress=Printed())
+                _try(files[0], options, option, searches, wanted, slots)
+                for rate, keys in wanted.items():
+                    for search in (searches[key] for key in keys if rate in searches[key].tried):
+                        _, mean, low, high, verdict, failed = search.row(rate)
+                        runs = f" ({failed})" if failed else ""
+                        print(
+                            f"{search.label}: growth {mean} [{low}, {high}] at {rate:.4g}: {verdict}{runs}", flush=True
+                        )
+    _print(list(searches.values()), UNITS[option], out, arguments.json)
+    return int(any(None in search.interval for search in searches.values()))
+
+
+def _read(file: str, overrides: Sequence[str]) -> StudyRuns:
+    study = read_study(file, overrides)
+    if study.errors:
+        raise InputErrors(*study.errors)
+    return study
+
+
+def _option(study: StudyRuns) -> str:
+    """The option that gives the rate, which all runs have."""
+    blocks = [tasks if isinstance(tasks := point.canonical["tasks"], dict) else {} for point in study.runs]
+    for option in UNITS:
+        if all(option in block for block in blocks):
+            break
+    else:
+        without = next((block for block in blocks if not UNITS.keys() & block.keys()), None)
+        reason = "all combinations must have `rate`, or all `scale`"
+        if without is not None:
+            reason = f"{without['plugin']!r} has no rate" if without else "the study has no task source"
+        raise InputError(f"tasks: {reason}", hint="use `poisson`, `pickup_delivery` or `trace`")
+    if not any(name.endswith(COLUMN) for name in study.columns):
+        raise InputError("metrics: `tasks` is missing", hint="it measures whether queues grow")
+    return option
+
+
+def _key(point: StudyRun, option: str) -> str:
+    """The same text for the runs of a combination."""
+    block = {key: value for key, value in point.canonical["tasks"].items() if key != option}
+    others = {key: value for key, value in point.canonical.items() if key not in NO_AXES}
+    return json.dumps(others | {"tasks": block})
+
+
+def _searches(study: StudyRuns, option: str) -> dict[str, Search]:
+    """One search for each combination of the matrix."""
+    points: dict[str, list[StudyRun]] = defaultdict(list)
+    for point in study.runs:
+        points[_key(point, option)].append(point)
+    for found in points.values():
+        if len({point.canonical["seed"] for point in found}) < 2:
+            raise InputError("seed: a rate is judged by two seeds or more", hint="e.g. seed=0..4")
+    labels = map(name_axes, find_axes([json.loads(key) for key in points]))
+    starts = (float(found[0].canonical["tasks"][option]) for found in points.values())
+    return {
+        key: Search(label or study.name, start if option == "rate" else 1 / start)
+        for key, label, start in zip(points, labels, starts, strict=True)
+    }
+
+
+def _wanted(searches: Mapping[str, Search], resolution: float) -> dict[float, list[str]]:
+    """The combinations by the rate that each tries next."""
+    wanted: dict[float, list[str]] = defaultdict(list)
+    for key, search in searches.items():
+        if (rate := search.next(resolution)) is not None:
+            wanted[rate].append(key)
+    return wanted
+
+
+def _try(
+    file: str,
+    options: StudyOptions,
+    option: str,
+    searches: Mapping[str, Search],
+    wanted: Mapping[float, Sequence[str]],
+    slots: str,
+) -> None:
+    """Do the runs of one step of all searches, and judge them."""
+    chosen: dict[tuple[float, str], list[StudyRun]] = defaultdict(list)
+    name = f"tasks.{option}"
+    others = [text for text in options.overrides if text.partition("=")[0].strip() != name]  # it gave the first rate
+    for rate, keys in wanted.items():
+        study = _read(file, [*others, f"{name}={rate if option == 'rate' else 1 / rate!r}"])
+        for point in study.runs:
+            if (key := _key(point, option)) in keys:
+                chosen[rate, key].append(point)
+    both = attrs.evolve(study, runs=tuple(point for found in chosen.values() for point in found))
+    done = run_study(both, options, slots)
+    if done.mistakes:
+        raise InputErrors(*map(InputError, dict.fromkeys(done.mistakes.values())))
+    for (rate, key), found in chosen.items():
+        searches[key].judge(rate, [done.results[point.run_id] for point in found])
+
+
+def _print(searches: Sequence[Search], unit: str, out: Path, as_json: bool) -> None:
+    if as_json:
+        rows = [attrs.asdict(search) | {"interval": search.interval} for search in searches]
+        for row, search in zip(rows, searches, strict=True):
+            row["tried"] = [
+                {"rate": rate, **attrs.asdict(found), "verdict": found.verdict, "failed": search.failed[rate]}
+                for rate, found in search.tried.items()
+            ]
+            del row["failed"]
+        print_json({"unit": unit, "tolerance": TOLERANCE, "out": str(out), "combinations": rows})
+        return
+    for search in searches:
+        print()
+        table = [search.row(rate) for rate in sorted(search.tried)]
+        columns = [unit, "growth", "low", "high", "queues", *(["runs"] if any(search.failed.values()) else [])]
+        print_table(columns, [row[: len(columns)] for row in table], search.label)
+        low, high = ("–" if end is None else f"{end:.4g}" for end in search.interval)
+        print(f"saturation rate: {low} to {high} {unit}" + (f"; stopped: {search.fault}" if search.fault else ""))
+    print(f"\ngrowth: share of the tasks that piles up, with one-sided 95 % limits; runs are in {out}")
+    if any(None in search.interval for search in searches):
+        print("an end is missing: longer runs or more seeds show more")
