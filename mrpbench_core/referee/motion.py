@@ -24,6 +24,10 @@ EXCESS = 1.05
 """Factor by which a robot may exceed its limits over a second."""
 WINDOW_S = 1.0
 """Seconds over which speeds are judged."""
+JERK, TWIST_JERK = 0.05, 0.3
+"""m/s and rad/s by which mean speeds of successive samples may always differ: bodies settle, and poses are rounded."""
+RAMP = 1.1
+"""Factor by which a robot may exceed its accelerations between samples."""
 PUSHED_S = 1.0
 """Seconds after a contact in which the speed of a robot says nothing."""
 DEPTH = 0.03
@@ -56,6 +60,7 @@ def _faults(run: FinishedRun, rate: float, actuation: float, apart: bool) -> Ite
     pushed = _pushed(run, time, len(context.fleet))
     excess = EXCESS + 4 * actuation
     yield from _speeds(time, truth, pushed, context.fleet, excess)
+    yield from _accelerations(time, truth, pushed, context.fleet)
     yield from _walls(context.world, names, time, truth[..., :2], level)
     yield from _levels(context.world, names, time, truth[..., :2], level)
     yield from _overlaps(run, time, truth, level, () if apart else context.movers)
@@ -107,6 +112,34 @@ def _speeds(time: Float, truth: Float, pushed: Bool, fleet: Fleet, excess: float
                 robot = int((far[sample] & ~excused).argmax())
                 yield f"{fleet.names[robot]} {what} at {time[sample + steps]:g} s faster than its limits allow"
                 return
+
+
+def _accelerations(time: Float, truth: Float, pushed: Bool, fleet: Fleet) -> Iterator[str]:
+    """Mean speeds ahead and turn rates between samples, which begin at rest.
+
+    Those of successive spans s and t differ by at most a (s + t) / 2 where no acceleration exceeds a, so low rates of
+    samples hide much. On an arc a robot moves along the mean of its headings, less far than it drives.
+    """
+    spans = np.diff(time)[:, None]
+    if not len(spans):
+        return
+    shift, turn = np.diff(truth[..., :2], axis=0), wrapped(np.diff(truth[..., 2], axis=0))
+    heading = truth[:-1, :, 2] + turn / 2
+    ahead = (shift[..., 0] * np.cos(heading) + shift[..., 1] * np.sin(heading)) / spans
+    apart = (np.vstack([np.zeros((1, 1)), spans[:-1]]) + spans) / 2
+    bend = turn**2 / 24
+    models = fleet.robots
+    top, top_rate = (np.array([getattr(model, name) for model in models]) for name in ("max_speed", "max_turn_rate"))
+    for what, speed, limit, most, always in (
+        ("speeds up or slows down", ahead, [model.acceleration for model in models], top, JERK + 2 * top * bend),
+        ("changes its turn rate", turn / spans, [model.turn_acceleration for model in models], top_rate, TWIST_JERK),
+    ):
+        change = np.abs(np.diff(speed, axis=0, prepend=np.zeros((1, len(models)))))
+        impossible = (change > RAMP * np.array(limit) * apart + always) & ~pushed[1:] & (most * spans < np.pi)
+        if impossible.any():
+            sample, robot = np.argwhere(impossible)[0].tolist()
+            yield f"{fleet.names[robot]} {what} at {time[sample]:g} s faster than its limits allow"
+            return
 
 
 def _walls(world: World, names: tuple[str, ...], time: Float, place: Float, level: Int16) -> Iterator[str]:

@@ -19,6 +19,7 @@ from mrpbench_core.referee.measuring import measure
 from mrpbench_core.referee.motion import motion_fault
 from mrpbench_core.referee.plan_summary import plan_summary
 from mrpbench_core.referee.plans import judge_plan
+from mrpbench_core.referee.tasks import tasks_fault
 from mrpbench_core.store.recording import Recording
 
 STATUS = {
@@ -125,15 +126,21 @@ def _executed(asked: Asked, run: FinishedRun, said: Ending | None) -> Ending | N
         return _ending(RunStatus.CONTRACT_BROKEN, Stage.EXECUTION, f"{what} ({asked.title('simulator')})")
     time = run.channel("time")
     gave_up = _gave_up(run)
-    missed = gave_up.any() or _unserved(run) if asked.tasks else np.isnan(arrival_times(run)).any()
-    if not missed:
+    if asked.tasks:
+        if (fault := tasks_fault(run, asked.driven)) is not None:
+            return _ending(RunStatus.CONTRACT_BROKEN, Stage.EXECUTION, f"the recorded tasks are impossible: {fault}")
+        failed, missed = gave_up.any() or _unserved(run), "no plan was found and no task was done"
+    else:
+        missing = np.isnan(arrival_times(run))
+        failed, missed = missing.any(), _not_arrived(run, missing)
+    if not failed:
         return None
     early = time[-1] < asked.limit_s - 1e-9
     aborted = gave_up.any() or (early and _agrees(said, RunStatus.EXECUTION_ABORTED))
     status = RunStatus.EXECUTION_ABORTED if aborted else RunStatus.GOALS_MISSED
     if said is not None and _agrees(said, status):
         return said
-    return _ending(status, Stage.EXECUTION, _missed(run, asked))
+    return _ending(status, Stage.EXECUTION, f"{missed} within {min(asked.limit_s, time[-1]):g} simulated seconds")
 
 
 def _gave_up(run: FinishedRun) -> Bool:
@@ -150,12 +157,9 @@ def _unserved(run: FinishedRun) -> bool:
     return not done and len(calls) > 0 and calls[-1] == "replan_failed"
 
 
-def _missed(run: FinishedRun, asked: Asked) -> str:
-    if asked.tasks:
-        return f"no plan was found and no task was done within {asked.limit_s:g} simulated seconds"
-    names = np.array(run.context.fleet.names)[np.isnan(arrival_times(run))].tolist()
-    robots = ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
-    return f"{robots} did not arrive within {run.channel('time')[-1]:g} simulated seconds"
+def _not_arrived(run: FinishedRun, missing: Bool) -> str:
+    names = np.array(run.context.fleet.names)[missing].tolist()
+    return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "") + " did not arrive"
 
 
 def _agrees(said: Ending | None, status: RunStatus) -> bool:
