@@ -24,7 +24,7 @@ EXCESS = 1.05
 """Factor by which a robot may exceed its limits over a second."""
 WINDOW_S = 1.0
 """Seconds over which speeds are judged."""
-JERK, TWIST_JERK = 0.05, 0.3
+JERK, TWIST_JERK = 0.03, 0.15
 """m/s and rad/s by which mean speeds of successive samples may always differ: bodies settle, and poses are rounded."""
 RAMP = 1.1
 """Factor by which a robot may exceed its accelerations between samples."""

@@ -113,6 +113,12 @@ class Simulating:
     def turns_at_once(own, state):
         return attrs.evolve(state, pose=state.pose + [0, 0, 2.5 * own.periods])
 
+    def jerks(own, state):
+        if own.periods == 20:
+            ahead = np.column_stack([np.cos(state.pose[:, 2]), np.sin(state.pose[:, 2]), 0 * state.pose[:, 2]])
+            own.shift = 0.045 * ahead
+        return attrs.evolve(state, pose=state.pose + own.shift)
+
     def skips_time(own, state):
         for _ in range(4):
             state = own.session.step(own.inputs)
@@ -219,6 +225,19 @@ class Navigating:
         return Navigating.arrived_and_stands(own, motion)
 
 
+class Serving:
+    """What navigators do where tasks come over time."""
+
+    def claims_tasks(own, motion):
+        if not hasattr(own, "board"):
+            own.board = of_class("TaskBoard")
+        for robot, queue in enumerate(own.board.queues):
+            while queue:
+                own.board.rest(own.now, robot)
+                queue = own.board.queues[robot]
+        return motion
+
+
 @attrs.frozen(kw_only=True)
 class CheatingNavigator(Waypoints):
     """Drives as `waypoints`, and says something else."""
@@ -227,12 +246,12 @@ class CheatingNavigator(Waypoints):
 
     def start(self, fleet, world, routes, controller, period, seed):
         def step(own, now, observation, orders):
-            own.orders = orders
+            own.orders, own.now = orders, now
             motion = own.session.step(now, observation, orders)
-            return motion if self.does == "nothing" else vars(Navigating)[self.does](own, motion)
+            return motion if self.does == "nothing" else (vars(Navigating) | vars(Serving))[self.does](own, motion)
 
         session = Waypoints.start(self, fleet, world, routes, controller, period, seed)
-        return made(NavigatorSession, step=step)(session, routes=routes)
+        return made(NavigatorSession, step=step)(session, routes=routes, now=0.0)
 
 
 @attrs.frozen(kw_only=True)
