@@ -12,6 +12,11 @@ STEPS = 61
 RATE = 10.0
 
 
+def way(step):
+    """Metres f8[STEPS] of a robot that speeds up to so many metres a sample."""
+    return np.append(0.0, np.cumsum(np.minimum(step, 0.005 + 0.02 * np.arange(STEPS - 1))))
+
+
 @pytest.fixture
 def fault(run_context):
     """Return a function: the fault of a run of two robots that drive 2 cm a sample, after a change of its channels."""
@@ -19,8 +24,8 @@ def fault(run_context):
     def find(change=lambda channels: None, context=run_context, apart=False):
         truth = np.zeros((STEPS, 2, 3))
         truth[:, :, 1] = 0.5
-        truth[:, 0, 0] = 0.5 + np.minimum(0.02 * np.arange(STEPS), 0.7)
-        truth[:, 1, 0] = 1.5 + np.minimum(0.02 * np.arange(STEPS), 0.7)
+        truth[:, 0, 0] = 0.5 + np.minimum(way(0.02), 0.7)
+        truth[:, 1, 0] = 1.5 + np.minimum(way(0.02), 0.7)
         channels = {
             "time": np.arange(STEPS) / RATE,
             "truth": truth,
@@ -61,6 +66,16 @@ def test_what_robots_can_do_has_no_fault(fault):
             id="wall",
         ),
         pytest.param(
+            lambda c: c["truth"].__setitem__((slice(30, None), 1, 0), c["truth"][30:, 1, 0] + 0.04),
+            "robot_1 speeds up or slows down at 2.9 s faster than its limits allow",
+            id="jerks ahead",
+        ),
+        pytest.param(
+            lambda c: c["truth"].__setitem__((slice(30, None), 1, 2), 0.08),
+            "robot_1 changes its turn rate at 2.9 s faster than its limits allow",
+            id="jerks round",
+        ),
+        pytest.param(
             lambda c: c["level"].__setitem__((slice(40, None), 1), 1), "robot_1 changes levels at 4 s", id="level"
         ),
     ],
@@ -72,7 +87,7 @@ def test_what_robots_cannot_do_is_named(fault, run_context, change, said):
 
 
 def close_in(channels):
-    channels["truth"][:, 0, 0] = 0.5 + np.minimum(0.04 * np.arange(STEPS), 0.9)
+    channels["truth"][:, 0, 0] = 0.5 + np.minimum(way(0.04), 0.9)
     channels["truth"][:, 1, 0] = 1.5
 
 

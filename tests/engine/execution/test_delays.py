@@ -79,13 +79,13 @@ def test_the_stops_of_a_robot_follow_seed_repeat_and_robot_and_nothing_else():
     settings = Delays(p_delay=0.1, speed=0.3)
     few, many = DelayStream(settings, 2, 3, 0), DelayStream(settings, 9, 3, 0)
     assert [*islice(few.stops(1), 20)] == [*islice(many.stops(1), 20)]
-    late = np.array([3, 200])
-    near = few.speed(np.array([1, 5]))
-    np.testing.assert_array_equal(many.speed(np.append(late, np.zeros(7, int)))[:2], few.speed(late))
-    np.testing.assert_array_equal(few.speed(np.array([1, 5])), near)
+    both, late = np.arange(2), np.array([3, 200])
+    near = few.speed(both, np.array([1, 5]))
+    np.testing.assert_array_equal(many.speed(both, late), few.speed(both, late))
+    np.testing.assert_array_equal(few.speed(both, np.array([1, 5])), near)
     others = [DelayStream(settings, 2, *key) for key in ((4, 0), (3, 1))]
     assert len({tuple(islice(DelayStream(settings, 2, *key).stops(0), 20)) for key in ((3, 0), (4, 0), (3, 1))}) == 3
-    assert all((other.speed(late) != few.speed(late)).all() for other in others)
+    assert all((other.speed(both, late) != few.speed(both, late)).all() for other in others)
 
 
 def test_a_tick_is_as_long_as_asked_for():
