@@ -93,7 +93,8 @@ bool Contacts::push(int robot, std::span<const Point> before, std::span<const Po
     shift = away(neighbours_.segment(inside.wall), centre) * inside.depth;
     return true;
   }
-  if (by_mover && deepest_wall(robot, centre + shift).wall >= 0) shift = before[static_cast<std::size_t>(robot)] - centre;
+  if (by_mover && deepest_wall(robot, centre + shift).wall >= 0)
+    shift = before[static_cast<std::size_t>(robot)] - centre;
   return pushed;
 }
 

@@ -7,11 +7,12 @@ namespace mrpbench::sim {
 
 namespace {
 
-constexpr double kLongest = 0.05;  // seconds of a sub-step
-constexpr double kWallSight = 3;   // metres
-constexpr std::size_t kMost = 10;  // neighbours whose velocity obstacles count
-constexpr double kBodies = 0.55;   // metres between the centres of members of a group that overlap
+constexpr double kLongest = 0.05;   // seconds of a sub-step
+constexpr double kWallSight = 3;    // metres
+constexpr std::size_t kMost = 10;   // neighbours whose velocity obstacles count
+constexpr double kBodies = 0.55;    // metres between the centres of members of a group that overlap
 constexpr double kToRobots = 0.05;  // metres that people leave between themselves and a robot
+constexpr double kStepBack = 0.5;   // share of their speed with which they step back, so that they can still go round
 constexpr double kLeast = 1e-9;
 
 Point unit(Point p) {
@@ -198,7 +199,7 @@ Point Walkers::beside_robots(std::size_t me, double dt, const Scene& scene, Poin
     const double room = distance - radius_[me] - scene.radius[disc - size()] - kToRobots;
     if (distance < kLeast || room > speed_[me] * dt) return;
     const Point away = offset * (1 / distance);
-    planes.push_back({away * std::min(-room / dt, speed_[me]), {away.y, -away.x}});
+    planes.push_back({away * std::min(-room / dt, kStepBack * speed_[me]), {away.y, -away.x}});
   });
   return nearest_velocity(planes, 0, speed_[me], wanted);
 }

@@ -89,9 +89,9 @@ class Floor:
         return point
 
     def route_past(self, place: Float, goal: Float, bodies: Float, reach: Float) -> Int32 | None:
-        """Return the routes to a goal f8[2] past bodies f8[k,2] that people keep `reach` f8[k] metres from, for `along`.
+        """Return the routes to a goal f8[2], for `along`, that keep `reach` f8[k] metres from bodies f8[k,2].
 
-        None if there is no way from the place f8[2].
+        None if none of them begins at the place f8[2].
         """
         begin, end = self.cell(np.stack([place, goal])).tolist()
         free = self._free.ravel().copy()
@@ -102,7 +102,7 @@ class Floor:
         return routes if routes[begin] >= 0 else None
 
     def along(self, routes: Int32, place: Float, goal: Float) -> Float:
-        """The point f8[2] to which to walk straight from a place f8[2] on `routes` to a goal f8[2]."""
+        """Return the point f8[2] to which to walk straight from a place f8[2] on `routes` to a goal f8[2]."""
         begin, end = self.cell(np.stack([place, goal])).tolist()
         following = routes[begin]
         point: Float = goal if following in (end, -1) else self._centre[following]

@@ -49,8 +49,8 @@ class People(Metric):
             "contacts_by_robot_per_robot_h",
             "1/h",
             "lower",
-            f"contacts at whose beginning the robot moves towards the mover, per hour of a robot; from true poses, with "
-            f"the robot's footprint, which touches at {TOUCH:g} m",
+            "contacts at whose beginning the robot moves towards the mover, per hour of a robot; from true poses, "
+            f"with the robot's footprint, which touches at {TOUCH:g} m",
         ),
         Column(
             "contacts_by_mover_per_robot_h",
