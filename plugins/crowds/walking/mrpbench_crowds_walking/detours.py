@@ -91,7 +91,7 @@ class Detours:
         self._wait_anew(person)
 
     def towards(self, place: Float, goal: Float, walking: Int) -> Float:
-        """Return the points f8[k,2] to which people `walking` i8[k] at places f8[k,2] walk straight, to goals f8[k,2]."""
+        """Return the points f8[k,2] to which `walking` i8[k] at places f8[k,2] walk straight, to goals f8[k,2]."""
         point = self._floor.towards(place, goal)
         for row, person in enumerate(walking.tolist()):
             if person in self._route:

@@ -134,7 +134,8 @@ class WalkingSession(CrowdSession):
         radius = np.concatenate([self._robot_radius[robots], seen.radius[others]])
         arrivals = self._arrivals
         velocity, push, regard, looks = self._wishes(dt, place, pose, radius[: len(robots)])
-        self._give_way(dt, place, velocity, self._arrivals > arrivals, discs[:, :2], radius)
+        arrived: Bool = np.greater(self._arrivals, arrivals)
+        self._give_way(dt, place, velocity, arrived, discs[:, :2], radius)
         wishes = {"velocity": velocity, "push": push, "regard": regard}
         leaves = self._facilities.outlines(seen.state.facilities, self._level) if seen.state.facilities else _NO_LEAVES
         self._walkers.step(dt, wishes, discs, radius, len(robots), np.ascontiguousarray(leaves))
