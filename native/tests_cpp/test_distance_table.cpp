@@ -38,18 +38,31 @@ Roadmap random_graph(unsigned seed, Tick longest) {
 
 }  // namespace
 
-TEST("distances are those of Bellman-Ford, in any order of queries") {
-  for (unsigned seed = 0; seed < 60; ++seed) {
-    const Roadmap roadmap = random_graph(seed, seed % 2 == 0 ? 1 : 9);
+TEST("distances are those of Bellman-Ford, in any order of queries, flat and in pages") {
+  for (unsigned seed = 0; seed < 120; ++seed) {
+    constexpr Tick kLongest[] = {1, 9, 1, 900};  // of the last, differences do not fit into a byte
+    const Roadmap roadmap = random_graph(seed, kLongest[seed % 4]);
     const std::vector<int> goals{static_cast<int>(seed % 40), static_cast<int>(seed * 7 % 40)};
     const std::vector<Tick> expected = distances(roadmap, static_cast<int>(seed % 2), goals);
     Limits limits = unlimited();
-    DistanceTable table(roadmap, static_cast<int>(seed % 2), goals, limits);
+    DistanceTable table(roadmap, static_cast<int>(seed % 2), goals, limits, nullptr, seed >= 60);
     for (int i = 0; i < 40; ++i) {
       const int vertex = (i * 17 + static_cast<int>(seed)) % 40;
       CHECK(table(vertex) == expected[vertex]);
     }
   }
+}
+
+TEST("pages hold a byte per vertex where all edges take equally long, and nothing where no search came") {
+  const Roadmap roadmap = grid(100, 100);
+  Limits flat_limits = unlimited(), near_limits = unlimited(), far_limits = unlimited();
+  const std::vector<int> goals{0};
+  DistanceTable flat(roadmap, 0, goals, flat_limits), near(roadmap, 0, goals, near_limits, nullptr, true),
+      far(roadmap, 0, goals, far_limits, nullptr, true);
+  CHECK(near(5) == 5);
+  for (int vertex = 0; vertex < 10000; ++vertex) CHECK(far(vertex) == flat(vertex));
+  CHECK(near_limits.memory_used() < 2000);
+  CHECK(3 * far_limits.memory_used() < flat_limits.memory_used());
 }
 
 TEST("robots with the same goals and profile share a table") {

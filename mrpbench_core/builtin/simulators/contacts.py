@@ -36,7 +36,7 @@ class Discs:
         centres = after
         contacts: set[tuple[int, int]] = set()
         for _ in range(_ROUNDS):
-            pushed, overlaps = self._push(centres, owner, walls)
+            pushed, overlaps = self._push(before, centres, owner, walls)
             contacts |= overlaps
             if pushed is None:
                 return centres, contacts
@@ -50,8 +50,13 @@ class Discs:
         robot, leaf = _close(centres[: self._robots], self._radii[: self._robots], leaves)
         return np.concatenate([owner, robot]), np.concatenate([*near, leaves[leaf]])
 
-    def _push(self, centres: Float, owner: Int, walls: Float) -> tuple[Float | None, set[tuple[int, int]]]:
-        """The positions after one round of pushing (None if nothing overlaps), and the overlaps."""
+    def _push(
+        self, before: Float, centres: Float, owner: Int, walls: Float
+    ) -> tuple[Float | None, set[tuple[int, int]]]:
+        """The positions after one round of pushing (None if nothing overlaps), and the overlaps.
+
+        A robot that a mover would push into a wall stays where it was.
+        """
         contacts: set[tuple[int, int]] = set()
         shift = np.zeros_like(centres)
         offset = centres[self._second] - centres[self._first]
@@ -65,6 +70,10 @@ class Discs:
             shift[first] -= push / 2 if both else push
             if both:
                 shift[second] += push / 2
+        by_mover = np.zeros(len(centres), bool)
+        by_mover[self._first[close[~self._both[close]]]] = True
+        against = by_mover[owner] & (_overlap(centres + shift, self._radii, owner, walls) > _TOUCH)
+        shift[owner[against]] = (before - centres)[owner[against]]
         deep = _overlap(centres, self._radii, owner, walls)
         inside = np.flatnonzero(deep > _TOUCH)
         # A robot in several walls is pushed out of the one it is deepest in; the next rounds handle the others.

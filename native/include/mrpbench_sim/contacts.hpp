@@ -34,8 +34,15 @@ class Contacts {
     Point by;
   };
 
+  struct Inside {
+    int wall;
+    double depth;
+  };
+
   void activate(bool all);
-  bool push(int robot, std::span<const Point> centres, Point& shift, std::vector<Touch>& touches) const;
+  bool push(int robot, std::span<const Point> before, std::span<const Point> centres, Point& shift,
+            std::vector<Touch>& touches) const;
+  Inside deepest_wall(int robot, Point centre) const;
   bool stuck(int robot, std::span<const Point> centres) const;
   void take_back(std::span<const Point> before, std::span<Point> centres);
 

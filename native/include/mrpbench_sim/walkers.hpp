@@ -81,6 +81,7 @@ class Walkers {
   Point forced(std::size_t me, double dt, const Scene& scene) const;
   Point avoided(std::size_t me, double dt, const Scene& scene) const;
   Point of_group(std::size_t me, Point wanted) const;
+  Point beside_robots(std::size_t me, double dt, const Scene& scene, Point wanted) const;
   void move(double dt, const Scene& scene);
   Walker walker(std::size_t disc, const Scene& scene) const;
   template <class Visit>
@@ -88,6 +89,7 @@ class Walkers {
 
   std::vector<Segment> segments_;
   std::vector<double> radius_, speed_;
+  double largest_robot_ = 0;
   std::vector<int> group_;
   std::vector<Point> places_, velocities_, next_;
   WalkerOptions options_;

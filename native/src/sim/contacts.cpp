@@ -32,7 +32,7 @@ void Contacts::separate(std::span<const Point> before, std::span<Point> centres,
     shifts_.clear();
     for (const int robot : active_) {
       Point shift;
-      if (push(robot, centres, shift, touches)) shifts_.push_back({robot, shift});
+      if (push(robot, before, centres, shift, touches)) shifts_.push_back({robot, shift});
     }
     if (shifts_.empty()) return;
     for (const Shift& it : shifts_) {
@@ -65,9 +65,10 @@ void Contacts::activate(bool all) {
 }
 
 /// Whether a robot overlaps anything, and where that pushes it: two robots share the displacement, movers and walls do
-/// not move.
-bool Contacts::push(int robot, std::span<const Point> centres, Point& shift, std::vector<Touch>& touches) const {
-  bool pushed = false;
+/// not move. A robot that a mover would push into a wall stays where it was.
+bool Contacts::push(int robot, std::span<const Point> before, std::span<const Point> centres, Point& shift,
+                    std::vector<Touch>& touches) const {
+  bool pushed = false, by_mover = false;
   const Point centre = centres[static_cast<std::size_t>(robot)];
   for (const int other : neighbours_.discs(robot)) {
     // Computed from the lower index, so that both robots of a pair get bit-identical results.
@@ -79,24 +80,33 @@ bool Contacts::push(int robot, std::span<const Point> centres, Point& shift, std
     if (!(distance < spacing - kTouch)) continue;
     pushed = true;
     const bool both = high < neighbours_.robots();
+    by_mover |= !both;
     if (robot == low) touches.push_back({low, high});
     const Point direction = distance > 0 ? offset * (1 / distance) : Point{1, 0};
     const double way = (spacing - distance) * (both ? 0.5 : 1.0);
     shift = robot == low ? shift - direction * way : shift + direction * way;
   }
   // A robot is pushed out of the wall that it overlaps most; later rounds handle the others.
-  double deepest = kTouch;
-  int wall = -1;
-  for (const int it : neighbours_.walls(robot)) {
-    const double deep = neighbours_.radius(robot) - length(gap(neighbours_.segment(it), centre));
-    if (deep < deepest || deep <= kTouch) continue;
-    deepest = deep;
-    wall = it;
+  const Inside inside = deepest_wall(robot, centre);
+  if (inside.wall >= 0) {
+    touches.push_back({robot, -1});
+    shift = away(neighbours_.segment(inside.wall), centre) * inside.depth;
+    return true;
   }
-  if (wall < 0) return pushed;
-  touches.push_back({robot, -1});
-  shift = away(neighbours_.segment(wall), centre) * deepest;
-  return true;
+  if (by_mover && deepest_wall(robot, centre + shift).wall >= 0)
+    shift = before[static_cast<std::size_t>(robot)] - centre;
+  return pushed;
+}
+
+/// The wall that a robot at `centre` overlaps most, -1 = none.
+Contacts::Inside Contacts::deepest_wall(int robot, Point centre) const {
+  Inside found{-1, kTouch};
+  for (const int it : neighbours_.walls(robot)) {
+    const double depth = neighbours_.radius(robot) - length(gap(neighbours_.segment(it), centre));
+    if (depth < found.depth || depth <= kTouch) continue;
+    found = {it, depth};
+  }
+  return found;
 }
 
 /// Undo the motion of robots that still overlap too much, and of robots that overlap those after that.

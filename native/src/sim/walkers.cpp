@@ -7,10 +7,12 @@ namespace mrpbench::sim {
 
 namespace {
 
-constexpr double kLongest = 0.05;  // seconds of a sub-step
-constexpr double kWallSight = 3;   // metres
-constexpr std::size_t kMost = 10;  // neighbours whose velocity obstacles count
-constexpr double kBodies = 0.55;   // metres between the centres of members of a group that overlap
+constexpr double kLongest = 0.05;   // seconds of a sub-step
+constexpr double kWallSight = 3;    // metres
+constexpr std::size_t kMost = 10;   // neighbours whose velocity obstacles count
+constexpr double kBodies = 0.55;    // metres between the centres of members of a group that overlap
+constexpr double kToRobots = 0.05;  // metres that people leave between themselves and a robot
+constexpr double kStepBack = 0.5;   // share of their speed with which they step back, so that they can still go round
 constexpr double kLeast = 1e-9;
 
 Point unit(Point p) {
@@ -82,6 +84,8 @@ void Walkers::step(double dt, const Wishes& wishes, std::span<const Walker> othe
     contacts_.emplace(segments_, std::move(all), static_cast<int>(size()));
   }
   contacts_->set_leaves(leaves);
+  largest_robot_ = 0;
+  for (std::size_t i = 0; i < robots; ++i) largest_robot_ = std::max(largest_robot_, radius[i]);
   // In a sub-step nobody moves farther than a quarter of the smallest radius, so that nobody passes through anything.
   double steps = dt / kLongest;
   for (std::size_t i = 0; i < size(); ++i) steps = std::max(steps, dt * speed_[i] / (radius_[i] / 4));
@@ -98,9 +102,7 @@ void Walkers::move(double dt, const Scene& scene) {
   for (const Walker& it : scene.others) centres.push_back(it.place);
   hash_.build(centres);
   for (std::size_t me = 0; me < size(); ++me) {
-    const Point velocity = options_.orca ? avoided(me, dt, scene) : forced(me, dt, scene);
-    const double speed = length(velocity);
-    next_[me] = speed > speed_[me] ? velocity * (speed_[me] / speed) : velocity;
+    next_[me] = beside_robots(me, dt, scene, options_.orca ? avoided(me, dt, scene) : forced(me, dt, scene));
   }
   const std::vector<Point> before = centres;
   for (std::size_t me = 0; me < size(); ++me) centres[me] = centres[me] + next_[me] * dt;
@@ -182,6 +184,24 @@ Point Walkers::of_group(std::size_t me, Point wanted) const {
   Point force = velocities_[me] * (-options_.gaze * turn) + apart * options_.repulsion;
   if (length(centre - places_[me]) > rest / 2) force = force + unit(centre - places_[me]) * options_.coherence;
   return force;
+}
+
+/// The velocity within the person's speed that is nearest to `wanted` and leaves some room to each robot; to one that
+/// has come nearer, the person steps back. Neither forces nor velocity obstacles forbid to walk into a robot.
+Point Walkers::beside_robots(std::size_t me, double dt, const Scene& scene, Point wanted) const {
+  std::vector<HalfPlane> planes;
+  const double reach = radius_[me] + largest_robot_ + kToRobots + speed_[me] * dt;
+  hash_.near(places_[me], reach, [&](int index) {
+    const auto disc = static_cast<std::size_t>(index);
+    if (disc < size() || disc >= size() + scene.robots) return;
+    const Point offset = places_[me] - scene.others[disc - size()].place;
+    const double distance = length(offset);
+    const double room = distance - radius_[me] - scene.radius[disc - size()] - kToRobots;
+    if (distance < kLeast || room > speed_[me] * dt) return;
+    const Point away = offset * (1 / distance);
+    planes.push_back({away * std::min(-room / dt, kStepBack * speed_[me]), {away.y, -away.x}});
+  });
+  return nearest_velocity(planes, 0, speed_[me], wanted);
 }
 
 Point Walkers::avoided(std::size_t me, double dt, const Scene& scene) const {

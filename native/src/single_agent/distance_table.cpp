@@ -7,20 +7,38 @@
 
 namespace mrpbench::mapf {
 
-DistanceTable::DistanceTable(const Roadmap& roadmap, int profile, std::span<const int> goals, Limits& limits,
-                             DistanceTable* then)
-    : roadmap_(roadmap), limits_(&limits), duration_(roadmap.duration(profile)) {
-  limits.charge(static_cast<std::size_t>(roadmap.vertex_count()) * sizeof(Tick));
-  for (const Tick duration : duration_) {
-    if (duration < 0) continue;
-    shortest_ = std::min(shortest_, duration);
-    longest_ = std::max(longest_, duration);
+namespace {
+
+/// Bytes of flat tables above which those of an instance are in pages.
+constexpr std::size_t kFlatBytes = std::size_t{256} << 20;
+
+/// The least and the greatest duration of an edge; kForever and 0 if there are none.
+std::pair<Tick, Tick> range_of(std::span<const Tick> durations) {
+  std::pair<Tick, Tick> range{kForever, 0};
+  for (const Tick duration : durations) {
+    if (duration >= 0) range = {std::min(range.first, duration), std::max(range.second, duration)};
   }
-  distance_.assign(roadmap.vertex_count(), kForever);
+  return range;
+}
+
+/// What distances are multiples of, where all edges take equally long.
+Tick unit_of(std::pair<Tick, Tick> range) {
+  return range.first == range.second ? std::max<Tick>(1, range.first) : 1;
+}
+
+}  // namespace
+
+DistanceTable::DistanceTable(const Roadmap& roadmap, int profile, std::span<const int> goals, Limits& limits,
+                             DistanceTable* then, bool pages)
+    : roadmap_(roadmap),
+      limits_(&limits),
+      duration_(roadmap.duration(profile)),
+      distance_(roadmap.vertex_count(), pages, unit_of(range_of(duration_)), limits) {
+  std::tie(shortest_, longest_) = range_of(duration_);
   for (const int goal : goals) {
     const Tick distance = then == nullptr ? 0 : (*then)(goal);
     if (distance_[goal] == distance) continue;  // known, or there is no way on
-    distance_[goal] = distance;
+    distance_.set(goal, distance, limits);
     heap_.push_back({distance, goal});
   }
   const auto as_far = [&](const Entry& it) { return it.distance == heap_.front().distance; };
@@ -35,7 +53,7 @@ DistanceTable::DistanceTable(const Roadmap& roadmap, int profile, std::span<cons
 
 void DistanceTable::go_on(Limits& limits) {
   limits_ = &limits;
-  limits.charge(distance_.size() * sizeof(Tick));
+  distance_.charge(limits);
   limits.charge(counted_);
 }
 
@@ -65,7 +83,7 @@ void DistanceTable::advance_level() {
   for (const int edge : roadmap_.in(vertex)) {
     const int tail = roadmap_.tail(edge);
     if (distance >= distance_[tail] || duration_[edge] < 0 || distance >= kForever / 2) continue;
-    distance_[tail] = distance;
+    distance_.set(tail, distance, *limits_);
     found_.push_back(tail);
   }
   final_ = std::min(kForever, distance);
@@ -85,7 +103,7 @@ void DistanceTable::advance_heap() {
     const int vertex = roadmap_.tail(edge);
     const Tick distance = entry.distance + duration_[edge];
     if (distance >= distance_[vertex] || distance >= kForever / 2) continue;
-    distance_[vertex] = distance;
+    distance_.set(vertex, distance, *limits_);
     heap_.push_back({distance, vertex});
     std::ranges::push_heap(heap_, std::greater{});
   }
@@ -107,6 +125,8 @@ void DistanceCache::keep(Tables tables) {
 
 DistanceTables::DistanceTables(const Instance& instance, Limits& limits) : cache_(instance.distances()) {
   const Roadmap& roadmap = instance.roadmap();
+  const std::size_t flat = static_cast<std::size_t>(roadmap.vertex_count()) * sizeof(Tick);
+  const bool pages = flat * static_cast<std::size_t>(instance.size()) > kFlatBytes;
   const auto table = [&](int profile, std::vector<int> goals) {
     std::ranges::sort(goals);
     const auto [place, is_new] = tables_.try_emplace({profile, std::move(goals)});
@@ -116,7 +136,7 @@ DistanceTables::DistanceTables(const Instance& instance, Limits& limits) : cache
       if (place->second) {
         place->second->go_on(limits);
       } else {
-        place->second = std::make_unique<DistanceTable>(roadmap, profile, place->first.second, limits);
+        place->second = std::make_unique<DistanceTable>(roadmap, profile, place->first.second, limits, nullptr, pages);
       }
     }
     return place->second.get();
@@ -127,7 +147,7 @@ DistanceTables::DistanceTables(const Instance& instance, Limits& limits) : cache
     const auto [place, is_new] = known.try_emplace({profile, goals, then});
     if (is_new) {
       limits.check_clock();
-      onward_.push_back(std::make_unique<DistanceTable>(roadmap, profile, goals, limits, then));
+      onward_.push_back(std::make_unique<DistanceTable>(roadmap, profile, goals, limits, then, pages));
       place->second = onward_.back().get();
     }
     return place->second;

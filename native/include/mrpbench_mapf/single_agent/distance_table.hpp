@@ -12,22 +12,27 @@
 #include "mrpbench_mapf/common/limits.hpp"
 #include "mrpbench_mapf/model/instance.hpp"
 #include "mrpbench_mapf/model/objective.hpp"
+#include "mrpbench_mapf/single_agent/distances.hpp"
 
 namespace mrpbench::mapf {
 
 class DistanceTable {
  public:
-  /// With `then`, robots go on from the goals as it says.
+  /// With `then`, robots go on from the goals as it says. In `pages`, it takes less memory and more time.
   DistanceTable(const Roadmap& roadmap, int profile, std::span<const int> goals, Limits& limits,
-                DistanceTable* then = nullptr);
+                DistanceTable* then = nullptr, bool pages = false);
   /// Go on in another call, whose limits hold from now on.
   void go_on(Limits& limits);
 
   /// Ticks from `vertex` to the nearest goal, or to the end of the shortest way over the goals; kForever if there is
   /// none.
   Tick operator()(int vertex) {
-    while (distance_[vertex] > final_) advance();
-    return distance_[vertex];
+    Tick distance = distance_[vertex];
+    while (distance > final_) {
+      advance();
+      distance = distance_[vertex];
+    }
+    return distance;
   }
 
  private:
@@ -48,7 +53,7 @@ class DistanceTable {
   Tick shortest_ = kForever;  // least and greatest duration of an edge
   Tick longest_ = 0;
   bool uniform_;  // vertices are found in the order of their distances
-  std::vector<Tick> distance_;
+  Distances distance_;
   std::vector<std::int32_t> level_, found_;  // uniform: of one distance, from `next_` on, and of the next one
   std::size_t next_ = 0;
   std::vector<Entry> heap_;  // not uniform

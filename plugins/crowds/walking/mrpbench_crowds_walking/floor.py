@@ -88,6 +88,26 @@ class Floor:
         point: Float = np.where(straight[:, None], goal, self._centre[following])
         return point
 
+    def route_past(self, place: Float, goal: Float, bodies: Float, reach: Float) -> Int32 | None:
+        """Return the routes to a goal f8[2], for `along`, that keep `reach` f8[k] metres from bodies f8[k,2].
+
+        None if none of them begins at the place f8[2].
+        """
+        begin, end = self.cell(np.stack([place, goal])).tolist()
+        free = self._free.ravel().copy()
+        for body, distance in zip(bodies, reach, strict=True):
+            free &= np.hypot(*(self._centre - body).T) >= distance
+        free[end] = self._free.ravel()[end]
+        routes: Int32 = walking_routes(free.reshape(self._free.shape).astype(np.uint8), end)
+        return routes if routes[begin] >= 0 else None
+
+    def along(self, routes: Int32, place: Float, goal: Float) -> Float:
+        """Return the point f8[2] to which to walk straight from a place f8[2] on `routes` to a goal f8[2]."""
+        begin, end = self.cell(np.stack([place, goal])).tolist()
+        following = routes[begin]
+        point: Float = goal if following in (end, -1) else self._centre[following]
+        return point
+
     def _route(self, end: int) -> Int32:
         if end not in self._routes:
             self._routes[end] = walking_routes(self._free.astype(np.uint8), end)

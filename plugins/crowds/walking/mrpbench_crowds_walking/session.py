@@ -10,12 +10,13 @@ from mrpbench_native.sim import Walkers
 from mrpbench_core.api import CrowdSession, CrowdView, Mover, Movers
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import did_you_mean
-from mrpbench_core.model.common.arrays import Float, Int, Int16
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int16
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.common.geometry import point_segment_distance
 from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.solids import segments
 from mrpbench_core.model.worlds.world import World
+from mrpbench_crowds_walking.detours import Detours
 from mrpbench_crowds_walking.floor import Floor
 from mrpbench_crowds_walking.goals import (
     REACHED,
@@ -75,6 +76,9 @@ class WalkingSession(CrowdSession):
         self._places = self._floor.places[drawn.integers(len(self._floor.places), size=recipe.places)]
         start = self._starts(drawn, seen)
         self._goals = self._all_goals(world, start)
+        self._detours = Detours(
+            self._floor, recipe.radius, start, lambda person, number: self._draws(person, 2**33 + number)
+        )
         self._seen_for, self._done = np.zeros(count), np.zeros(count, bool)
         leg = recipe.leg_radius if recipe.legs else 0.0
         self.members = (Mover(radius=recipe.radius, kind=recipe.kind, leg_radius=leg),) * count
@@ -97,7 +101,7 @@ class WalkingSession(CrowdSession):
     def movers(self) -> Movers:
         """Where they are now."""
         level: Int16 = np.full(len(self.members), self._level, np.int16)
-        arrivals = np.concatenate([goals.arrivals for goals in self._goals]).astype(np.int32)
+        arrivals = self._arrivals.astype(np.int32)
         pose = np.column_stack([self._walkers.place, self._yaw])
         return Movers(pose=pose, velocity=self._walkers.velocity, level=level, arrivals=arrivals)
 
@@ -105,6 +109,10 @@ class WalkingSession(CrowdSession):
     def _goal(self) -> Float:
         """Where each of them goes f8[m,2]."""
         return np.concatenate([goals.place for goals in self._goals])
+
+    @property
+    def _arrivals(self) -> Int:
+        return np.concatenate([goals.arrivals for goals in self._goals])
 
     def wanted_doors(self) -> set[str]:
         """Doors near people who walk towards them, and doors in which somebody stands."""
@@ -124,7 +132,10 @@ class WalkingSession(CrowdSession):
             ]
         )
         radius = np.concatenate([self._robot_radius[robots], seen.radius[others]])
+        arrivals = self._arrivals
         velocity, push, regard, looks = self._wishes(dt, place, pose, radius[: len(robots)])
+        arrived: Bool = np.greater(self._arrivals, arrivals)
+        self._give_way(dt, place, velocity, arrived, discs[:, :2], radius)
         wishes = {"velocity": velocity, "push": push, "regard": regard}
         leaves = self._facilities.outlines(seen.state.facilities, self._level) if seen.state.facilities else _NO_LEAVES
         self._walkers.step(dt, wishes, discs, radius, len(robots), np.ascontiguousarray(leaves))
@@ -155,12 +166,25 @@ class WalkingSession(CrowdSession):
 
     def _to_goals(self, place: Float, walking: Int) -> Float:
         """Velocities f8[k,2] with which the people `walking` i8[k] walk on their ways."""
-        way = self._floor.towards(place[walking], self._goal[walking]) - place[walking]
+        way = self._detours.towards(place[walking], self._goal[walking], walking) - place[walking]
         distance = np.hypot(*way.T)[:, None]
         turned = (self._aside[walking] @ way[:, :, None])[:, :, 0]
         speed = self._speed[walking, None]
         velocity: Float = np.divide(turned, distance, out=np.zeros_like(way), where=distance > 0) * speed
         return velocity
+
+    def _give_way(self, dt: float, place: Float, velocity: Float, arrived: Bool, discs: Float, radius: Float) -> None:
+        """Let people who are blocked look for another way, past the others and the `discs` f8[k,2]."""
+        for person in self._detours.update(dt, place, velocity.any(axis=1), arrived).tolist():
+            others = np.delete(place, person, axis=0)
+            self._detours.begin(
+                person,
+                place[person],
+                self._goal[person],
+                place[person] + velocity[person],
+                np.vstack([others, discs]),
+                np.concatenate([np.full(len(others), self._recipe.radius), radius]),
+            )
 
     def _tire(self, dt: float, who: Int) -> None:
         """Count the time for which people see robots; they grow tired of it."""

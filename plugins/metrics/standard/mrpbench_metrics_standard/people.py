@@ -15,6 +15,7 @@ from mrpbench_metrics_standard.freezing import LEAST, NEAR, freezings
 from mrpbench_metrics_standard.hunav import COLUMNS, Encounters, hunav
 from mrpbench_metrics_standard.progress import moves_among
 from mrpbench_metrics_standard.samples import measurable, nulls
+from mrpbench_metrics_standard.who_moved import TOUCH, Moved, contacts_of
 
 MOVING = 0.05
 """m/s above which a robot moves."""
@@ -31,13 +32,32 @@ FREEZING = "Trautman and Krause, Unfreezing the Robot, IROS 2010"
 class People(Metric):
     """Measures what robots do to people and other movers, from true poses; null where there are none.
 
-    Robots and movers are discs; the distance of a pair is that of their outlines. Hall's distances were observed in
+    Robots and movers are discs, and robots have their footprints where contacts are told apart by who moved; the
+    distance of a pair is that of their outlines. Hall's distances were observed in
     conversations, and corridors force people and robots below them: the times are numbers, not verdicts.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
-        Column("contacts_per_robot_h", "1/h", "lower", "episodes of a robot touching a mover, per hour of a robot"),
+        Column(
+            "contacts_per_robot_h",
+            "1/h",
+            "lower",
+            "episodes of a robot touching a mover, as the simulator reports them, per hour of a robot",
+        ),
         Column("contacts_per_person_h", "1/h", "lower", "the same episodes, per hour of a mover"),
+        Column(
+            "contacts_by_robot_per_robot_h",
+            "1/h",
+            "lower",
+            "contacts at whose beginning the robot moves towards the mover, per hour of a robot; from true poses, "
+            f"with the robot's footprint, which touches at {TOUCH:g} m",
+        ),
+        Column(
+            "contacts_by_mover_per_robot_h",
+            "1/h",
+            "lower",
+            "the same where only the mover moves towards the robot",
+        ),
         Column(
             "goal_time_s",
             "s",
@@ -107,7 +127,9 @@ class People(Metric):
             return nulls(self)
         touches = run.channel("contact_time"), run.channel("contact")
         contacts = episodes(*touches, self.contact_pause, len(run.context.fleet))[2]
-        met = [_meet(run, robot, there) for robot in range(len(run.context.fleet))]  # all pairs at once are too many
+        met = [
+            _meet(run, robot, there, self.contact_pause) for robot in range(len(run.context.fleet))
+        ]  # all pairs at once are too many
         nearest = np.column_stack([one.nearest for one in met])
         soonest = np.column_stack([one.soonest for one in met])
         moving = np.abs(run.channel("truth_twist")[..., 0]) > MOVING
@@ -120,6 +142,8 @@ class People(Metric):
         return {
             "contacts_per_robot_h": contacts / robot_hours,
             "contacts_per_person_h": contacts / mover_hours,
+            "contacts_by_robot_per_robot_h": sum(one.moved.robot for one in met) / robot_hours,
+            "contacts_by_mover_per_robot_h": sum(one.moved.mover for one in met) / robot_hours,
             "goal_time_s": _goal_time(run, there, spent),
             **{f"distance_{name}_m": percentile(near, share) for name, (share, _) in DISTANCES.items()},
             **within,
@@ -145,13 +169,15 @@ class _Met(NamedTuple):
     soonest: Float
     """f8[T] s to a collision; inf = never."""
     hunav: dict[str, float | None]
+    moved: Moved
 
 
-def _meet(run: FinishedRun, robot: int, there: Bool) -> _Met:
+def _meet(run: FinishedRun, robot: int, there: Bool, pause: float) -> _Met:
     pose, twist, level = (run.channel(name)[:, robot] for name in ("truth", "truth_twist", "level"))
     mover = run.channel("mover")
     velocity = twist[:, :1] * np.column_stack([np.cos(pose[:, 2]), np.sin(pose[:, 2])])
-    reach = run.context.fleet.radii[robot] + np.array([body.radius for body in run.context.movers])
+    model, radius = run.context.fleet.robots[robot], np.array([body.radius for body in run.context.movers])
+    reach = model.radius + radius
     offset = mover[..., :2] - pose[:, None, :2]
     here = there & (run.channel("mover_level") == level[:, None])
     gap = np.where(here, np.hypot(offset[..., 0], offset[..., 1]) - reach, np.inf)
@@ -162,6 +188,7 @@ def _meet(run: FinishedRun, robot: int, there: Bool) -> _Met:
         robot=_to_robots(run, robot),
         soonest=np.where(here, left, np.inf).min(axis=1),
         hunav=hunav(run.channel("time"), pose, twist, seen),
+        moved=contacts_of(model.footprint, run.channel("time"), pose, mover[..., :2], radius, gap, pause),
     )
 
 

@@ -63,6 +63,21 @@ def test_a_mover_that_walks_through_pushes_as_in_the_kinematic_simulator():
     assert sum([0, 2] in state.contacts.tolist() for state in theirs) > 5
 
 
+def test_a_robot_beside_a_wall_that_runs_into_a_mover_stays_as_in_the_kinematic_simulator():
+    radius = BURGER.radius
+    starts, command = [[1.0, radius + 0.055, 0.0]], [[0.2, 0]]
+    person = np.array([[1.6, radius + 0.155, 0, 0]])  # it would deflect the robot into the wall, which is 5 cm thick
+    ours, theirs = (
+        drive(kind, FURNISHED, (BURGER,), starts, command, 60, movers=(0.25,), place=lambda _: person)[0]
+        for kind in (Planar(), Kinematic())
+    )
+    touched = [tuple(pair) for state in theirs for pair in state.contacts.tolist()]
+    assert set(touched) == {(0, 1)}
+    assert [state.contacts.tolist() for state in ours] == [state.contacts.tolist() for state in theirs]
+    assert np.allclose(poses(ours), poses(theirs), rtol=0, atol=1e-9)
+    assert 1.2 < poses(ours)[-1, 0, 0] < 1.6 - radius
+
+
 @pytest.mark.parametrize("command", [(0.2, 0.0), (0.2, 0.5), (0.15, -1.5)])
 def test_driven_wheels_in_pybullet_come_within_a_centimetre(command):
     pytest.importorskip("pybullet", reason="PyBullet has no wheel for this Python")
