@@ -71,7 +71,7 @@ def speed(steps: int, guidance: bool) -> None:
     blocked[2:138:3, 4:496] = True
     blocked[:, ::12] = False
     problem = drawn(2023, blocked, 10_000, 1000, 1)
-    options = Options(planner="pibt", iterations=0, guidance=guidance, table_bytes=2**32)
+    options = Options(planner="pibt", iterations=0, guidance=guidance, table_mib=4096)
     execution = discrete.open(problem=problem, **attrs.asdict(options))
     began = time.perf_counter()
     execution.run_until(50)

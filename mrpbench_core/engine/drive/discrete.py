@@ -41,6 +41,7 @@ def execute_steps(inputs: RunInputs, context: RunContext, stream: TaskStream) ->
     )
     began = time.perf_counter()
     result = check_returned(simulator, simulator.execute(run), DiscreteResult)
+    timing["preprocessing_s"] = result.preprocessing
     timing["execution_wall_s"] = time.perf_counter() - began
     channels = {name: np.empty((0, *shape), kind) for name, (kind, shape) in (IRREGULAR | TASKS).items()}
     channels |= result.channels

@@ -87,7 +87,7 @@ void Epibt::rank(const View& view) {
   wishes_.weight.resize(robots);
   for (std::size_t rank = 0; rank < robots; ++rank) {
     const double share = 1 - static_cast<double>(rank) / static_cast<double>(robots);
-    wishes_.weight[order_[rank]] = share * share / (kUnit * view.tables.turn());
+    wishes_.weight[order_[rank]] = share / (kUnit * view.tables.turn());
   }
 }
 
