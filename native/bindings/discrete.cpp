@@ -209,5 +209,6 @@ NB_MODULE(discrete, module) {
       });
 
   module.def("open", &open, nb::kw_only(), "problem"_a, "planner"_a, "depth"_a, "improve"_a, "threads"_a, "guidance"_a,
-             "active"_a.none(), "limit"_a, "iterations"_a.none(), "seed"_a, "preprocessing"_a, "table_mib"_a, "period"_a);
+             "active"_a.none(), "limit"_a, "iterations"_a.none(), "seed"_a, "preprocessing"_a, "table_mib"_a,
+             "period"_a);
 }

@@ -14,8 +14,7 @@ using Clock = std::chrono::steady_clock;
 
 class Steps final : public League {
  public:
-  Steps(Problem problem, LeagueOptions options)
-      : League(std::move(problem), options), view_{problem_.grid, tables_} {
+  Steps(Problem problem, LeagueOptions options) : League(std::move(problem), options), view_{problem_.grid, tables_} {
     const std::size_t robots = problem_.robots();
     view_.pose = pose_;
     view_.goal.assign(robots, -1);
