@@ -112,9 +112,8 @@ def large(shared: Path, options: Options, ticks: int) -> None:
     cpu = time.process_time() - cpu
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
     late = f"{done.late_calls} of {len(done.call_seconds)} calls late"
-    print(
-        f"{ticks} ticks: {done.errands} errands, {done.output.finished} tasks; {late}, {cpu:.0f} s of CPU, {peak:.0f} MiB"
-    )
+    print(f"{ticks} ticks: {done.errands} errands, {done.output.finished} tasks")
+    print(f"{late}, {cpu:.0f} s of CPU, {peak:.0f} MiB")
     print(f"preprocessing {done.preprocessing_seconds:.1f} s; a call {np.median(done.call_seconds):.2f} s (median)")
 
 
