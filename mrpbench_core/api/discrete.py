@@ -51,6 +51,8 @@ class DiscreteResult:
     """Wall seconds of each call of the planner."""
     overruns: int
     """Answers that came too late."""
+    preprocessing: float = 0.0
+    """Wall seconds before the first step, which count as no call."""
 
 
 class DiscreteSimulator(Simulator):

@@ -75,8 +75,8 @@ Problem problem_of(nb::handle given) {
 
 std::unique_ptr<League> open(nb::handle problem, const std::string& planner, int depth, bool improve, int threads,
                              bool guidance, std::optional<int> active, double limit,
-                             std::optional<std::int64_t> iterations, std::uint64_t seed, std::size_t table_bytes,
-                             int period) {
+                             std::optional<std::int64_t> iterations, std::uint64_t seed, double preprocessing,
+                             std::size_t table_mib, int period) {
   LeagueOptions options;
   options.planner = {planner, depth, improve, threads};
   options.guidance = guidance;
@@ -84,9 +84,11 @@ std::unique_ptr<League> open(nb::handle problem, const std::string& planner, int
   options.limit_s = limit;
   options.iterations = iterations;
   options.seed = seed;
-  options.table_bytes = table_bytes;
+  options.preprocessing_s = preprocessing;
+  options.table_bytes = table_mib << 20;
   options.period = period;
   require(threads > 0 && (!active || *active > 0), "threads or active are out of range");
+  require(preprocessing >= 0 && table_mib > 0, "preprocessing or table_mib are out of range");
   require(limit > 0 && period > 0 && (!iterations || *iterations >= 0), "limit, period or iterations are out of range");
   Problem found = problem_of(problem);
   const nb::gil_scoped_release release;
@@ -200,11 +202,13 @@ NB_MODULE(discrete, module) {
           },
           nb::rv_policy::automatic)
       .def_prop_ro("late_calls", &League::late_calls)
+      .def_prop_ro("preprocessing_seconds", &League::preprocessing_seconds)
       .def_prop_ro("refused", [](const League& self) {
         const auto* const ticks = dynamic_cast<const Ticks*>(&self);
         return ticks ? ticks->refused() : 0;
       });
 
   module.def("open", &open, nb::kw_only(), "problem"_a, "planner"_a, "depth"_a, "improve"_a, "threads"_a, "guidance"_a,
-             "active"_a.none(), "limit"_a, "iterations"_a.none(), "seed"_a, "table_bytes"_a, "period"_a);
+             "active"_a.none(), "limit"_a, "iterations"_a.none(), "seed"_a, "preprocessing"_a, "table_mib"_a,
+             "period"_a);
 }

@@ -51,6 +51,7 @@ class DiscreteExecution(TimedExecution):
             exports=inputs.paths.exports,
         )
         result = check_returned(simulator, simulator.execute(run), DiscreteResult)
+        timing["preprocessing_s"] = result.preprocessing
         channels = {name: np.empty((0, *shape), kind) for name, (kind, shape) in (IRREGULAR | TASKS).items()}
         channels |= result.channels
         if "time" not in channels or not len(channels["time"]):

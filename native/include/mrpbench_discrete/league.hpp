@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -20,8 +21,10 @@ struct LeagueOptions {
   /// If given, answers are never late and do not depend on the clock.
   std::optional<std::int64_t> iterations;
   std::uint64_t seed = 0;
-  /// Of distance tables.
+  /// Of distance tables, at most.
   std::size_t table_bytes = std::size_t{2} << 30;
+  /// Time before the first step, in which distance tables are computed, unless `iterations` is given.
+  double preprocessing_s = 30;
   /// Whether moves cost more where there is traffic.
   bool guidance = true;
   /// Robots that have a goal at the same time, at most; none: half as many as there are free cells,
@@ -38,6 +41,7 @@ struct ActionError {
 };
 
 class Guidance;
+class Scheduler;
 
 /// What both kinds of execution share.
 class League {
@@ -62,20 +66,26 @@ class League {
   /// Seconds of each call of scheduler and planner.
   const std::vector<double>& call_seconds() const { return call_seconds_; }
   int late_calls() const { return late_calls_; }
+  /// Seconds that the preprocessing took.
+  double preprocessing_seconds() const { return preprocessing_seconds_; }
 
  protected:
   /// How many robots may get tasks, if `holding` others have some.
   std::size_t may_get(std::size_t holding) const { return std::max(active_, holding) - holding; }
+  /// Compute the tables that the first answers need. Call it before the first one.
+  void preprocess();
   /// Write down what a robot does; the robots come in order.
   void record(Action asked, Action done);
 
   Problem problem_;
   LeagueOptions options_;
+  std::chrono::steady_clock::time_point opened_ = std::chrono::steady_clock::now();
   std::size_t active_ = 0;
   DistanceTables tables_;
   std::unique_ptr<Guidance> guidance_;
   ///< Null: none.
   Tasks tasks_;
+  std::unique_ptr<Scheduler> scheduler_;
   std::unique_ptr<Planner> planner_;
   std::vector<Pose> pose_;
   std::vector<std::uint8_t> letters_;
@@ -83,6 +93,10 @@ class League {
   std::vector<ActionError> errors_;
   std::vector<double> call_seconds_;
   int time_ = 0, late_calls_ = 0;
+  double preprocessing_seconds_ = 0;
+
+ private:
+  std::vector<std::int32_t> first_goals();
 };
 
 /// 2023 and 2024.

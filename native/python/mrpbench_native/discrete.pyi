@@ -61,6 +61,9 @@ class Execution:
     def late_calls(self) -> int:
         """Calls that took longer than the limit."""
     @property
+    def preprocessing_seconds(self) -> float:
+        """Wall seconds before the first call."""
+    @property
     def refused(self) -> int:
         """Motions that the rules refused because a robot was in the way (2026)."""
 
@@ -76,7 +79,8 @@ def open(  # noqa: A001 - as `io.open`
     limit: float,
     iterations: int | None,
     seed: int,
-    table_bytes: int,
+    preprocessing: float,
+    table_mib: int,
     period: int,
 ) -> Execution:
     """Begin an execution; for 2026 this makes the first plan.
@@ -92,7 +96,9 @@ def open(  # noqa: A001 - as `io.open`
         limit: seconds of one answer.
         iterations: rounds of improvement in each step that is planned; the clock is then not read.
         seed: of the planner.
-        table_bytes: of distance tables that are kept.
+        preprocessing: seconds before the first step in which distance tables are computed; none if `iterations` is
+            given.
+        table_mib: memory for distance tables, in MiB; values do not depend on it.
         period: ticks between two calls of the planner (2026).
 
     Raises:

@@ -25,31 +25,35 @@ Epibt::Epibt(int depth, bool improve, int threads, std::uint64_t seed)
 void Epibt::plan(const View& view, const Budget& budget, std::vector<Action>& action) {
   const double until = steady_seconds() + budget.seconds;
   ++steps_;
-  OperationSearch search = inherit(view);
+  inherit(view);
   rank(view);
   choose(view);
-  construct(search);
-  if (improves_) lns_.improve(wishes_, budget, until, steps_, search);
+  construct();
+  if (improves_) lns_.improve(wishes_, budget, until, steps_, *search_);
   const std::size_t robots = view.pose.size();
   action.resize(robots);
   for (std::size_t i = 0; i < robots; ++i) {
-    held_[i] = search.plans.of(static_cast<int>(i));
+    held_[i] = search_->plans.of(static_cast<int>(i));
     action[i] = held_[i].actions[0];
     expected_[i] = view.grid.after(view.pose[i], action[i]);
   }
 }
 
 /// What is left of the operations that robots hold.
-OperationSearch Epibt::inherit(const View& view) {
+void Epibt::inherit(const View& view) {
   const std::size_t robots = view.pose.size();
-  OperationSearch search(view, depth_);
+  if (search_)
+    search_->plans.restart(view);
+  else
+    search_.emplace(view, depth_);
+  OperationPlans& plans = search_->plans;
   const bool executed = expected_ == view.pose;  // not in the first step, nor if the last answer was not executed
   expected_.resize(robots);
   held_.resize(robots);
   last_goal_.resize(robots, -1);
   nearest_.resize(robots, 0);
   waited_.resize(robots, 0);
-  for (std::size_t i = 0; i < robots; ++i) search.plans.remove(static_cast<int>(i));
+  for (std::size_t i = 0; i < robots; ++i) plans.remove(static_cast<int>(i));
   for (std::size_t i = 0; i < robots; ++i) {
     auto& actions = held_[i].actions;
     if (executed)
@@ -57,9 +61,8 @@ OperationSearch Epibt::inherit(const View& view) {
     else
       actions.fill(Action::wait);
     actions[depth_ - 1] = Action::wait;
-    search.plans.place(static_cast<int>(i), *plan_of(view, static_cast<int>(i), {actions.data(), actions.size()}, 0));
+    plans.place(static_cast<int>(i), *plan_of(view, static_cast<int>(i), {actions.data(), actions.size()}, 0));
   }
-  return search;
 }
 
 void Epibt::rank(const View& view) {
@@ -84,7 +87,7 @@ void Epibt::rank(const View& view) {
   wishes_.weight.resize(robots);
   for (std::size_t rank = 0; rank < robots; ++rank) {
     const double share = 1 - static_cast<double>(rank) / static_cast<double>(robots);
-    wishes_.weight[order_[rank]] = share * share / (kUnit * view.tables.turn());
+    wishes_.weight[order_[rank]] = share / (kUnit * view.tables.turn());
   }
 }
 
@@ -140,13 +143,13 @@ std::int32_t Epibt::value(const View& view, int robot, const OperationPlan& plan
   return kUnit * static_cast<std::int32_t>(view.tables.to(goal).from(path[depth_])) - step * worth;
 }
 
-void Epibt::construct(OperationSearch& search) {
+void Epibt::construct() {
   std::vector<std::uint8_t> fixed(order_.size(), 0);
   for (const int robot : order_) {
     if (fixed[robot]) continue;
     // One that stays gives way to others, or two of them would wait for one another in a dead end.
-    const bool found = search.push(wishes_, robot, fixed);
-    fixed[robot] = found || std::ranges::count(search.plans.of(robot).actions, Action::forward) > 0;
+    const bool found = search_->push(wishes_, robot, fixed);
+    fixed[robot] = found || std::ranges::count(search_->plans.of(robot).actions, Action::forward) > 0;
   }
 }
 

@@ -19,10 +19,10 @@ class Epibt final : public Planner {
   void plan(const View& view, const Budget& budget, std::vector<Action>& action) override;
 
  private:
-  OperationSearch inherit(const View& view);
+  void inherit(const View& view);
   void rank(const View& view);
   void choose(const View& view);
-  void construct(OperationSearch& search);
+  void construct();
   std::optional<OperationPlan> plan_of(const View& view, int robot, std::span<const Action> actions, int worth) const;
   std::int32_t value(const View& view, int robot, const OperationPlan& plan, int worth) const;
 
@@ -31,6 +31,7 @@ class Epibt final : public Planner {
   const std::uint64_t seed_;
   const std::vector<Operation> operations_;
   OperationLns lns_;
+  std::optional<OperationSearch> search_;
   Wishes wishes_;
   std::vector<OperationPlan> held_;
   std::vector<Pose> expected_;

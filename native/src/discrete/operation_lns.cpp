@@ -25,13 +25,14 @@ double steady_seconds() {
 
 void OperationLns::improve(const Wishes& wishes, const Budget& budget, double until, std::uint64_t step,
                            OperationSearch& search) {
-  std::vector<Lane> lanes(kLanes, {search, {}});
   std::int64_t done = 0;
   const auto over = [&] { return budget.iterations ? done >= *budget.iterations : steady_seconds() >= until; };
   if (over()) return;
+  if (lanes_.empty()) lanes_.assign(kLanes, {search, {}});
+  for (Lane& lane : lanes_) lane.search.plans.copy(search.plans);
   bool ended = false;
   const auto exchange = [&]() noexcept {
-    merge(wishes, lanes);
+    merge(wishes, lanes_);
     done += kLanes * kRounds;
     ended = over();
   };
@@ -42,7 +43,7 @@ void OperationLns::improve(const Wishes& wishes, const Budget& budget, double un
       for (int lane = thread; lane < kLanes; lane += threads) {
         const std::int64_t begin = done + lane * kRounds;
         const std::int64_t end = budget.iterations ? std::min(begin + kRounds, *budget.iterations) : begin + kRounds;
-        work(wishes, budget, until, step, {begin, end}, lanes[lane]);
+        work(wishes, budget, until, step, {begin, end}, lanes_[lane]);
       }
       barrier.arrive_and_wait();
     }
@@ -52,7 +53,7 @@ void OperationLns::improve(const Wishes& wishes, const Budget& budget, double un
     for (int thread = 1; thread < threads; ++thread) others.emplace_back(run, thread);
     run(0);
   }
-  search.plans = std::move(lanes[0].search.plans);
+  search.plans.copy(lanes_[0].search.plans);
 }
 
 /// Make rounds in a lane.

@@ -33,6 +33,7 @@ class OperationLns {
   static bool take(const Wishes& wishes, const Change& change, OperationPlans& plans);
   static void merge(const Wishes& wishes, std::vector<Lane>& lanes);
 
+  std::vector<Lane> lanes_;
   const int threads_;
   const std::uint64_t seed_;
 };

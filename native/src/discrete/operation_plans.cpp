@@ -4,14 +4,36 @@ namespace mrpbench::discrete {
 
 OperationPlans::OperationPlans(const View& view, int depth)
     : grid_(&view.grid), depth_(depth), straight_following_(view.straight_following) {
-  plans_.resize(view.pose.size());
   at_.assign(depth + 1, std::vector<std::int32_t>(view.grid.size(), nobody));
+  restart(view);
+}
+
+void OperationPlans::restart(const View& view) {
+  clear();
+  plans_.resize(view.pose.size());
   for (std::size_t i = 0; i < plans_.size(); ++i) {
-    at_[0][view.pose[i].cell] = static_cast<std::int32_t>(i);
-    OperationPlan plan;
-    plan.actions.fill(Action::wait);
-    plan.path.fill(view.pose[i].cell);
-    place(static_cast<int>(i), plan);
+    plans_[i] = {};
+    plans_[i].actions.fill(Action::wait);
+    plans_[i].path.fill(view.pose[i].cell);
+  }
+  fill();
+}
+
+void OperationPlans::copy(const OperationPlans& others) {
+  clear();
+  plans_ = others.plans_;
+  fill();
+}
+
+void OperationPlans::clear() {
+  for (const OperationPlan& plan : plans_) {
+    for (int k = 0; k <= depth_; ++k) at_[k][plan.path[k]] = nobody;
+  }
+}
+
+void OperationPlans::fill() {
+  for (std::size_t i = 0; i < plans_.size(); ++i) {
+    for (int k = 0; k <= depth_; ++k) at_[k][plans_[i].path[k]] = static_cast<std::int32_t>(i);
   }
 }
 

@@ -23,8 +23,12 @@ class OperationPlans {
  public:
   static constexpr int nobody = -1, several = -2;
 
-  /// Every robot waits where it is.
   OperationPlans(const View& view, int depth);
+
+  /// Every robot waits where it is.
+  void restart(const View& view);
+  /// Take the plans of others of the same map and depth. The time does not depend on the size of the map.
+  void copy(const OperationPlans& others);
 
   const OperationPlan& of(int robot) const { return plans_[robot]; }
   void place(int robot, const OperationPlan& plan);
@@ -34,6 +38,9 @@ class OperationPlans {
   int hit(int robot, const OperationPlan& plan) const;
 
  private:
+  void clear();
+  void fill();
+
   const Grid* grid_;
   int depth_;
   bool straight_following_;

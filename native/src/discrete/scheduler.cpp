@@ -1,6 +1,7 @@
 #include "scheduler.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <queue>
 
 namespace mrpbench::discrete {
@@ -21,7 +22,8 @@ std::uint32_t Scheduler::rest(const Tasks& all, int task, int errand) {
     std::uint32_t length = 0;
     rest_[first + count - 1] = 0;
     for (int i = count - 2; i >= 0; --i) {
-      length += tables_.to(problem_.errands[first + i + 1]).from(problem_.errands[first + i]);
+      const int from = problem_.errands[first + i], to = problem_.errands[first + i + 1];
+      length += tables_.clustered() ? tables_.estimate({from, 0}, to) : tables_.to(to).from(from);
       rest_[first + i] = length;
     }
   }
@@ -37,19 +39,29 @@ std::vector<std::int32_t> Scheduler::choose(const Tasks& all, const std::vector<
   std::vector<std::uint32_t> rests;
   for (const int task : tasks) rests.push_back(rest(all, task, 0));
   const bool screened = robots.size() * tasks.size() > kPairs && tasks.size() > kNearest;
+  const int width = problem_.grid.width();
+  std::vector<std::int32_t> rows, columns;
+  for (const int task : tasks) {
+    const int place = problem_.grid.place(all.cell(task, 0));
+    rows.push_back(place / width);
+    columns.push_back(place % width);
+  }
   for (std::size_t i = 0; i < robots.size(); ++i) {
     auto& own = options[i];
     const Pose from = pose[robots[i]];
     const std::uint32_t wait = later.empty() ? 0 : later[robots[i]];
+    const int row = problem_.grid.place(from.cell) / width, column = problem_.grid.place(from.cell) % width;
+    own.reserve(tasks.size());
     for (std::size_t k = 0; k < tasks.size(); ++k) {
-      const int first = all.cell(tasks[k], 0);
-      const std::uint32_t way = screened ? problem_.grid.manhattan(from.cell, first) : tables_.to(first).from(from);
+      const std::uint32_t way = screened ? std::abs(rows[k] - row) + std::abs(columns[k] - column)
+                                         : tables_.estimate(from, all.cell(tasks[k], 0));
       own.push_back({kWay * (way + wait) + rests[k], static_cast<std::int32_t>(k)});
     }
     if (screened) {
       std::nth_element(own.begin(), own.begin() + kNearest, own.end());
       own.resize(kNearest);
-      for (auto& [cost, k] : own) cost = kWay * (tables_.to(all.cell(tasks[k], 0)).from(from) + wait) + rests[k];
+      own.shrink_to_fit();
+      for (auto& [cost, k] : own) cost = kWay * (tables_.estimate(from, all.cell(tasks[k], 0)) + wait) + rests[k];
     }
     std::sort(own.begin(), own.end(), std::greater<>());
   }

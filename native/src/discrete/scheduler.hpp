@@ -9,7 +9,7 @@
 namespace mrpbench::discrete {
 
 /// Robots and tasks by increasing 5 * (way to the first errand) + (way through the rest of the task), as the winner of
-/// the League of Robot Runners 2024 weighs them.
+/// the League of Robot Runners 2024 weighs them. With clustered tables ways are lower bounds.
 class Scheduler {
  public:
   Scheduler(const Problem& problem, DistanceTables& tables) : problem_(problem), tables_(tables) {}
@@ -23,8 +23,9 @@ class Scheduler {
                                    std::size_t most, const std::vector<std::uint32_t>& later = {});
   /// The cost from an errand of a task to the end of that task.
   std::uint32_t rest(const Tasks& all, int task, int errand);
-  /// Way from a pose to the first errand of a task.
-  std::uint32_t way(const Tasks& all, const Pose& pose, int task) { return tables_.to(all.cell(task, 0)).from(pose); }
+  /// Whether tasks that nobody has begun are given again to so many robots: above some millions of pairs that takes
+  /// too long.
+  static bool reassigns(std::size_t robots, std::size_t tasks) { return robots * tasks <= 20'000'000; }
 
  private:
   const Problem& problem_;

@@ -12,19 +12,16 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kReassigned = 4'000'000;
-///< Pairs of robots and tasks up to which tasks that nobody has begun are given again in every step.
-
 class Steps final : public League {
  public:
-  Steps(Problem problem, LeagueOptions options)
-      : League(std::move(problem), options), scheduler_(problem_, tables_), view_{problem_.grid, tables_} {
+  Steps(Problem problem, LeagueOptions options) : League(std::move(problem), options), view_{problem_.grid, tables_} {
     const std::size_t robots = problem_.robots();
     view_.pose = pose_;
     view_.goal.assign(robots, -1);
     view_.next_goal.assign(robots, -1);
     view_.rest.assign(robots, 0);
     turns_.resize(robots);
+    preprocess();
   }
 
   void run_until(int time) override {
@@ -48,7 +45,6 @@ class Steps final : public League {
         if (time_ == time) return;
       }
       advance(action_, proposal);
-      tables_.forget();
     }
   }
 
@@ -64,12 +60,12 @@ class Steps final : public League {
       if (proposal[i] < 0 || !tasks_.open(proposal[i])) unbound.push_back(static_cast<std::int32_t>(i));
     }
     const auto& tasks = tasks_.unopened();
-    const bool all = unbound.size() * tasks.size() <= kReassigned;
+    const bool all = Scheduler::reassigns(unbound.size(), tasks.size());
     if (!all && free.empty()) return proposal;
     std::vector<std::int32_t> given = tasks;
     if (!all) std::erase_if(given, [&](int task) { return tasks_.all()[task].robot >= 0; });
     const auto& robots_given = all ? unbound : free;
-    const auto chosen = scheduler_.choose(tasks_, pose_, robots_given, given, may_get(robots - robots_given.size()));
+    const auto chosen = scheduler_->choose(tasks_, pose_, robots_given, given, may_get(robots - robots_given.size()));
     for (std::size_t i = 0; i < chosen.size(); ++i) proposal[robots_given[i]] = chosen[i];
     return proposal;
   }
@@ -92,7 +88,7 @@ class Steps final : public League {
       const int errand = tasks_.all()[task].progress;
       view_.goal[i] = tasks_.cell(task, errand);
       if (errand + 1 < tasks_.errands(task)) view_.next_goal[i] = tasks_.cell(task, errand + 1);
-      view_.rest[i] = scheduler_.rest(tasks_, task, errand);
+      view_.rest[i] = scheduler_->rest(tasks_, task, errand);
     }
   }
 
@@ -139,7 +135,6 @@ class Steps final : public League {
     tasks_.check(time_, pose_);
   }
 
-  Scheduler scheduler_;
   View view_;
   std::vector<Action> action_;
   /// Whether a robot may go to the goal of its task, and since when it has that.
@@ -174,29 +169,6 @@ std::vector<ActionError> faults_of_step(const Grid& grid, const std::vector<Pose
     }
   }
   return faults;
-}
-
-League::League(Problem problem, LeagueOptions options)
-    : problem_(std::move(problem)),
-      options_(std::move(options)),
-      tables_(problem_.grid, options_.table_bytes),
-      tasks_(problem_),
-      planner_(make_planner(options_.planner, options_.seed)) {
-  for (const int cell : problem_.start) pose_.push_back({cell, 0});
-  if (options_.guidance) guidance_ = std::make_unique<Guidance>(problem_.grid, tables_);
-  active_ =
-      options_.active ? *options_.active : std::max(1, problem_.grid.size() * (problem_.season == 2023 ? 3 : 4) / 8);
-}
-
-League::~League() = default;
-
-void League::record(Action asked, Action done) {
-  if (asked != done) {
-    const auto row = static_cast<std::int32_t>(letters_.size() / pose_.size());
-    const auto robot = static_cast<std::int32_t>(letters_.size() % pose_.size());
-    unexecuted_.push_back({row, robot, static_cast<std::int32_t>(asked)});
-  }
-  letters_.push_back(static_cast<std::uint8_t>(done));
 }
 
 std::unique_ptr<League> make_steps(Problem problem, LeagueOptions options) {

@@ -26,7 +26,6 @@ class TickLeague final : public Ticks {
  public:
   TickLeague(Problem problem, LeagueOptions options)
       : Ticks(std::move(problem), options),
-        scheduler_(problem_, tables_),
         executor_(problem_.grid, pose_),
         squares_(problem_.grid, problem_.size, problem_.counter),
         delays_(problem_.delays, pose_.size()),
@@ -38,9 +37,9 @@ class TickLeague final : public Ticks {
     view_.goal.assign(robots, -1);
     view_.next_goal.assign(robots, -1);
     view_.rest.assign(robots, 0);
-    const auto tick = static_cast<int>(options_.period);
+    preprocess();
     call(0);
-    first_ = ready_at_ = std::max(ready_at_, tick);
+    first_ = ready_at_ = std::max(ready_at_, options_.period);
   }
 
   void run_until(int time) override {
@@ -111,7 +110,6 @@ class TickLeague final : public Ticks {
   /// Call scheduler and planner for the states after all that is staged.
   void call(int time) {
     const auto began = Clock::now();
-    tables_.forget();
     if (guidance_) guidance_->update();
     look_ahead();
     schedule();
@@ -171,16 +169,21 @@ class TickLeague final : public Ticks {
     std::vector<std::uint8_t> bound(tasks_.all().size(), 0);
     proposal_.assign(robots, -1);
     next_.assign(robots, -1);
+    const auto begun = static_cast<std::size_t>(std::ranges::count_if(outlook_, &Outlook::opened));
+    const bool all = Scheduler::reassigns(robots - begun, tasks_.unopened().size());
+    std::size_t holding = begun;
     const std::uint32_t soon = 3 * static_cast<std::uint32_t>(options_.period / problem_.counter + 2);
     for (std::size_t i = 0; i < robots; ++i) {
       const Outlook& it = outlook_[i];
       const auto robot = static_cast<std::int32_t>(i);
-      if (it.task < 0 || !it.opened) {
+      if (it.task < 0 || (!it.opened && all)) {
         chosen_for.push_back(robot);
         continue;
       }
       proposal_[i] = it.task;
       bound[it.task] = 1;
+      holding += !it.opened;
+      if (!it.opened) continue;
       if (it.errand == tasks_.errands(it.task)) {
         chosen_for.push_back(robot);
       } else if (it.errand + 1 == tasks_.errands(it.task)) {
@@ -194,8 +197,7 @@ class TickLeague final : public Ticks {
     for (const int task : tasks_.unopened()) {
       if (!bound[task]) given.push_back(task);
     }
-    const auto holding = std::ranges::count_if(outlook_, &Outlook::opened);
-    const auto found = scheduler_.choose(tasks_, from, chosen_for, given, may_get(holding), later);
+    const auto found = scheduler_->choose(tasks_, from, chosen_for, given, may_get(holding), later);
     for (std::size_t k = 0; k < found.size(); ++k) {
       const int robot = chosen_for[k];
       const Outlook& it = outlook_[robot];
@@ -234,7 +236,7 @@ class TickLeague final : public Ticks {
       const int count = it.task < 0 ? 0 : tasks_.errands(it.task);
       if (it.errand < count) {
         view_.goal[i] = tasks_.cell(it.task, it.errand);
-        view_.rest[i] = scheduler_.rest(tasks_, it.task, it.errand);
+        view_.rest[i] = scheduler_->rest(tasks_, it.task, it.errand);
         if (it.errand + 1 < count) {
           view_.next_goal[i] = tasks_.cell(it.task, it.errand + 1);
         } else if (next_[i] >= 0) {
@@ -242,7 +244,7 @@ class TickLeague final : public Ticks {
         }
       } else if (next_[i] >= 0) {
         view_.goal[i] = tasks_.cell(next_[i], 0);
-        view_.rest[i] = scheduler_.rest(tasks_, next_[i], 0);
+        view_.rest[i] = scheduler_->rest(tasks_, next_[i], 0);
       }
     }
   }
@@ -254,7 +256,6 @@ class TickLeague final : public Ticks {
     it.errand += tasks_.cell(it.task, it.errand) == view_.pose[i].cell;
   }
 
-  Scheduler scheduler_;
   Executor executor_;
   Squares squares_;
   DelayModel delays_;

@@ -40,8 +40,12 @@ class Options:
     period: int = attrs.field(default=10, validator=attrs.validators.ge(1))
     """Ticks of 100 ms between two calls of the planner (2026)."""
     seed: int = attrs.field(default=0, validator=attrs.validators.ge(0))
-    table_bytes: int = 2**31
-    """Memory for distance tables."""
+    preprocessing: float = attrs.field(default=30.0, validator=attrs.validators.ge(0))
+    """Seconds before the first step in which distance tables are computed, as in the competition. With `iterations`
+    there is no such phase, since the clock is not read: tables are computed when they are asked for."""
+    table_mib: int = attrs.field(default=2048, validator=attrs.validators.ge(1))
+    """Memory for distance tables, MiB. The least recently used ones are dropped and computed again when they are asked
+    for; the motion does not depend on it, but for the clock."""
 
 
 @attrs.frozen(kw_only=True)
@@ -55,6 +59,8 @@ class Executed:
     call_seconds: np.ndarray
     """f8[k] of each call of scheduler and planner."""
     late_calls: int
+    preprocessing_seconds: float
+    """Of the phase before the first call, which counts as no call."""
     refused: int
     """Motions that were refused because a robot was in the way (2026)."""
     others: dict[str, Any]
@@ -109,6 +115,7 @@ def execute(problem: LorrProblem, duration: int, options: Options | None = None)
         errands=running.errands,
         call_seconds=running.call_seconds,
         late_calls=running.late_calls,
+        preprocessing_seconds=running.preprocessing_seconds,
         refused=running.refused,
         others={"plannerPaths": asked} | _others(problem, running, duration),
     )

@@ -57,6 +57,17 @@ class League(DiscreteSimulator):
     rules: Path | None = option(
         None, help="a problem file whose season, ticks, size and delays hold instead of these options"
     )
+    preprocessing: float = option(
+        30.0,
+        help="time before the first step for distance tables, which counts as no answer; none with `limits.iterations`",
+        unit="s",
+        validator=between(0, 3600),
+    )
+    table_memory: int = option(
+        2048,
+        help="memory for distance tables in MiB; those used least recently are dropped and computed again when needed",
+        validator=between(1, 2**20),
+    )
     period: int = option(10, help="ticks between two calls of the planner in 2026", validator=attrs.validators.ge(1))
 
     def idle_options(self) -> dict[str, str]:
@@ -96,6 +107,8 @@ class League(DiscreteSimulator):
             active=run.planner.active,
             limit=run.limit,
             iterations=run.iterations,
+            preprocessing=self.preprocessing,
+            table_mib=self.table_memory,
             period=self.period,
             seed=run.seed % 2**63,
         )
@@ -133,6 +146,7 @@ class League(DiscreteSimulator):
             channels=channels_of(done.output, tasks, raster, seconds, run.rate),
             calls=done.call_seconds.tolist(),
             overruns=done.late_calls,
+            preprocessing=done.preprocessing_seconds,
         )
 
 

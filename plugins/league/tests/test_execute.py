@@ -12,7 +12,7 @@ from mrpbench_league.scoring.rescore import rescore
 DELAYS = Delays(least=2, most=9, events="bernoulli", probability=0.02, durations="uniform")
 
 
-def drawn(season, seed, *, side=8, robots=12, walls=8, **others):
+def drawn(season, seed, *, side=8, robots=12, walls=8, tasks=30, **others):
     """A problem on a raster of single walls, without dead ends, in which PIBT and EPIBT may leave robots for ever."""
     random = np.random.default_rng(seed)
     blocked = np.zeros((side, side), bool)
@@ -21,7 +21,7 @@ def drawn(season, seed, *, side=8, robots=12, walls=8, **others):
     ]
     blocked[inner[:, 0], inner[:, 1]] = True
     free = np.flatnonzero(~blocked)
-    lengths = np.ones(30, int) if season == 2023 else random.integers(1, 4, 30)
+    lengths = np.ones(tasks, int) if season == 2023 else random.integers(1, 4, tasks)
     first = np.cumsum([0, *lengths])
     errands = random.choice(free, first[-1])
     ticks = {"counter": 3, "delays": DELAYS} if season == 2026 else {}
@@ -95,6 +95,25 @@ def test_with_iterations_outputs_are_equal_on_any_number_of_threads(tmp_path):
         attrs.evolve(done, others={}).write(tmp_path / name)
         texts.append((tmp_path / name).read_bytes())
     assert texts[0] == texts[1]
+
+
+def test_on_a_large_map_the_motion_does_not_depend_on_the_memory_for_tables(tmp_path):
+    """So many goals and cells that tables are clustered, and so little memory that they are computed again and again."""
+    problem = drawn(2024, 6, side=400, robots=350, walls=9000, tasks=600)
+    texts = []
+    for memory in (1, 2048):
+        done = execute(problem, 4, Options(iterations=20, table_mib=memory))
+        assert rescore(problem, done.output).faults.kept == []
+        attrs.evolve(done, others={}).write(tmp_path / str(memory))
+        texts.append((tmp_path / str(memory)).read_bytes())
+    assert texts[0] == texts[1]
+
+
+def test_tables_are_computed_before_the_first_step_as_long_as_that_may_take():
+    problem = drawn(2024, 6, side=60, robots=40, tasks=60)
+    some, none = (execute(problem, 1, Options(preprocessing=seconds)) for seconds in (30, 0))
+    assert 30 > some.preprocessing_seconds > 3 * none.preprocessing_seconds
+    assert execute(problem, 1, Options(iterations=0)).preprocessing_seconds < some.preprocessing_seconds
 
 
 def test_delays_do_not_depend_on_the_planner():

@@ -83,6 +83,7 @@ def test_the_output_of_a_run_keeps_the_rules_and_agrees_with_its_record(tmp_path
     assert record["metrics"]["tasks.done"] == score.tasks > 5
     assert record["metrics"]["tasks.open_end"] == 7
     assert record["timing"]["replanning_overruns"] == 0
+    assert 0 < record["timing"]["preprocessing_s"] < record["timing"]["execution_wall_s"]
 
 
 def test_robots_are_recorded_where_the_output_has_them(tmp_path):

@@ -29,6 +29,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--no-guidance", action="store_false", dest="guidance", help="moves cost the same everywhere")
     parser.add_argument("--active", type=_positive, metavar="N", help="robots with goals (half the cells, 2023: 3/8)")
     parser.add_argument("--limit", type=_seconds, default=1.0, metavar="S", help="seconds of one answer")
+    parser.add_argument("--preprocessing", type=_duration, default=30.0, metavar="S", help="seconds before step 1 (30)")
+    parser.add_argument("--table-mib", type=_positive, default=2048, metavar="MIB", help="of distance tables (2048)")
     parser.add_argument("--iterations", type=int, metavar="N", help="rounds of improvement instead of seconds")
     parser.add_argument("--period", type=_positive, default=10, metavar="N", help="ticks between two calls (2026)")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the planner")
@@ -46,6 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
     slowest, usual = done.call_seconds.max(), np.median(done.call_seconds)
     unit = "ticks" if problem.season == 2026 else "steps"
     print(f"{done.output.finished} tasks, {done.errands} errands in {arguments.duration} {unit}")
+    print(f"{done.preprocessing_seconds:.1f} s of preprocessing")
     print(f"{done.late_calls} late answers; a call took {usual:.3f} s (median), {slowest:.3f} s (longest)")
     print(arguments.out)
     return 0
@@ -63,3 +66,7 @@ def _seconds(text: str) -> float:
     if not 0 < number < 1e6:
         raise argparse.ArgumentTypeError(f"should be above 0, is {text}")
     return number
+
+
+def _duration(text: str) -> float:
+    return 0.0 if float(text) == 0 else _seconds(text)
