@@ -278,7 +278,11 @@ class RunConfig:
     noise: Noise = option(Noise(), help="errors of sensors, motors and starts")
     delays: Delays = option(Delays(), help="stops of robots, and speeds that differ from the plan")
     faults: Faults = option(Faults(), help="what fails during execution, and what is done about it")
-    metrics: Mapping[str, Metric] = block(("planning", "execution"), help="metrics to compute")
+    metrics: Mapping[str, Metric] = block(
+        ("planning", "execution"),
+        help="metrics to compute; `tasks`, `crowds`, `delays` and `faults` add their own: `tasks`, `people`, `delay`, "
+        "and `draws` for `delays.draws`",
+    )
     export: Mapping[str, WritableFormat] = block((), help="formats in which executions are also written")
     recording: RecordingOptions = option(RecordingOptions(), help="settings of recordings")
     limits: Limits = option(Limits(), help="limits of time and memory")

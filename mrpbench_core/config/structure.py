@@ -7,7 +7,7 @@ validators of single fields would each replace what cattrs does by default.
 import enum
 import logging
 import typing
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import UnionType
@@ -16,6 +16,7 @@ from typing import Any, Literal, TypeVar, cast
 import attrs
 
 from mrpbench_core.api.component import Component
+from mrpbench_core.api.metric import Metric
 from mrpbench_core.api.world import WorldSource
 from mrpbench_core.config.containers import Expected, is_block, mapping, sequence, union
 from mrpbench_core.config.hints import plugins_with, to_matrix
@@ -23,6 +24,7 @@ from mrpbench_core.config.items import Item, Location, from_data
 from mrpbench_core.config.maps import SUFFIXES
 from mrpbench_core.config.references import References, short_name
 from mrpbench_core.config.scalars import Unfit, literal, member, scalar, show
+from mrpbench_core.config.sections import metrics_of_sections
 from mrpbench_core.config.settings import EXECUTION, WITHOUT_PHYSICS, FleetEntry, RunConfig
 from mrpbench_core.config.shared import Shared
 from mrpbench_core.config.validation import fault_of, stand_in_of, words_of
@@ -56,9 +58,13 @@ class Structure:
         if not isinstance(root.value, dict):
             raise InputErrors(root.location.error("", f"expected a block of settings, got {show(root.value)}"))
         try:
-            return cast("RunConfig", self._options(root, RunConfig, "", self._with_defaults(root)))
+            config = cast("RunConfig", self._options(root, RunConfig, "", self._with_defaults(root)))
         except InputErrors as several:
             raise InputErrors(*in_reading_order(several.errors)) from None
+        added = tuple(name for name in metrics_of_sections(config) if name not in config.metrics)
+        if not added:
+            return config
+        return attrs.evolve(config, metrics=self._shared(self._with_metrics, config.metrics, added))
 
     def settings(self, given: Mapping[str, Any]) -> dict[str, Any]:
         """Return some settings of `RunConfig` by name, from plain data.
@@ -94,6 +100,12 @@ class Structure:
             place = attrs.evolve(root.location, line=None, column=None)
             added[field.name] = self._defaults.setdefault((field.name, default), from_data(default, place))
         return added
+
+    def _with_metrics(self, metrics: Mapping[str, Metric], added: Sequence[str]) -> dict[str, Metric]:
+        """Return metrics with further ones, as far as these are installed."""
+        installed = {provider.name for provider in Registry(Metric)}  # type: ignore[type-abstract]
+        items = [from_data(name, Location()) for name in added if name in installed]
+        return {**metrics, **{str(item.value): self.component(item, Metric, "metrics") for item in items}}  # type: ignore[type-abstract]
 
     def _gives_goals(self, scenario: Item | None) -> bool:
         """Tell whether a scenario gives each robot its goal, so that no assigner should change it by default."""

@@ -4,6 +4,9 @@ import math
 
 import pytest
 
+from mrpbench_core.config.structure import structure
+from mrpbench_core.config.study import load_study
+
 SMALL = "world: office\nscenario: {robots: 5}\n"
 BASE = SMALL + "planner: ecbs\n"
 
@@ -262,3 +265,29 @@ def test_a_plugin_that_raises_what_is_no_exception_when_it_is_made_is_named(erro
     assert errors(SMALL + "planner: {plugin: ./mine.py:Mine, depth: 4}") == [
         "some.yaml:3:10: planner: './mine.py:Mine' cannot be made: BaseExceptionGroup: two lines (1 sub-exception)"
     ]
+
+
+@pytest.mark.parametrize(
+    ("text", "names"),
+    [
+        ("", ["planning", "execution"]),
+        ("tasks: {plugin: poisson, rate: 1}", ["planning", "execution", "tasks"]),
+        ("tasks: {plugin: poisson, rate: 1}\nmetrics: [execution]", ["execution", "tasks"]),
+        ("tasks: {plugin: poisson, rate: 1}\ndelays: {p_delay: 0.1}", ["planning", "execution", "tasks"]),
+        ("delays: {p_delay: 0.1}\nmetrics: [delay, planning]", ["delay", "planning"]),
+        ("delays: {p_delay: 0.1, draws: 3}\nexecution: schedule_only", ["planning", "execution", "delay", "draws"]),
+        ("faults: {active: false, events: [{kind: stop, at: 5 s}]}", ["planning", "execution", "delay"]),
+        ("faults: {events: [{kind: stop, at: 5 s}]}\nsimulator: none", ["planning", "execution"]),
+        ("crowds: {plugin: social_force, people: 3}", ["planning", "execution", "people"]),
+    ],
+)
+def test_sections_add_their_metrics(tmp_path, text, names):
+    study = tmp_path / "study.yaml"
+    study.write_text(f"{BASE}{text}\n")
+    (point,) = load_study(study).runs
+    assert list(point.config.metrics) == names
+    assert list(structure(point.canonical, tmp_path).metrics) == names
+
+
+def test_metrics_of_sections_that_are_not_installed_are_left_out(study):
+    assert list(study(BASE + "delays: {p_delay: 0.1}").runs[0].config.metrics) == ["planning", "execution"]

@@ -1,7 +1,7 @@
 """The blocks of code of a page, and what each is for.
 
 - The text before a block names the file that the block is: "Save this as `mine.py`:".
-- `*Not tested: reason.*` before a block says why it does not run here.
+- `*Tested by …*` before a block says what else runs it, `*Not tested: reason.*` why nothing does.
 - Other blocks in `sh` and `python` are run, those in `yaml` are parts of a configuration, and a block of `text` after a
   block in `sh` is its output, in which `...` stands for anything. A block without a language is a drawing.
 """
@@ -14,7 +14,7 @@ import attrs
 
 FENCE = re.compile(r"^(?P<indent> *)```(?P<language>\w*)\n(?P<code>.*?)^(?P=indent)```$", re.MULTILINE | re.DOTALL)
 FILE = re.compile(r"\bas\s+`([\w./-]+)`[^`]*:\Z")
-REASON = re.compile(r"^\*Not tested: (.+)\*\Z", re.MULTILINE)
+REASON = re.compile(r"^\*(?:Not tested:|Tested by) (.+)\*\Z", re.MULTILINE)
 
 
 @attrs.frozen
@@ -28,7 +28,7 @@ class Block:
     file: str | None
     """The file that the block is, relative to the folder of the reader."""
     reason: str | None
-    """Why it does not run here."""
+    """Why it does not run here: what else runs it, or why nothing can."""
 
 
 def blocks_of(page: Path) -> Iterator[Block]:

@@ -62,7 +62,6 @@ def test_the_interval_holds_the_rate_of_a_robot_that_is_always_busy(shuttle):
         (("tasks=none",), "no task source"),
         (("tasks=closed_pool",), "'closed_pool' has no rate"),
         (("seed=3",), "two seeds or more"),
-        (("metrics=[]",), "metrics: `tasks` is missing"),
         (("--resolution", "0"), "--resolution 0: from 0.01"),
     ],
 )

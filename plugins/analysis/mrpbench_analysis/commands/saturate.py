@@ -141,8 +141,6 @@ def _option(study: StudyRuns) -> str:
         if without is not None:
             reason = f"{without['plugin']!r} has no rate" if without else "the study has no task source"
         raise InputError(f"tasks: {reason}", hint="use `poisson`, `pickup_delivery` or `trace`")
-    if not any(name.endswith(COLUMN) for name in study.columns):
-        raise InputError("metrics: `tasks` is missing", hint="it measures whether queues grow")
     return option
 
 

@@ -20,7 +20,7 @@ _column = partial(Column, stage="planning")
 
 @attrs.frozen(kw_only=True)
 class Planning(Metric):
-    """Measures the first plan of a run."""
+    """Measures the first plan of a run; its costs are null where tasks come over time, which it does not know."""
 
     columns: ClassVar[tuple[Column, ...]] = (
         _column("solved", "", "higher", "the planner found a plan that keeps its promises, within its limits"),
@@ -84,12 +84,14 @@ class Planning(Metric):
         values: dict[str, Value] = {column.name: None for column in self.columns} | {"solved": solved}
         if result.plan is None:
             return values
-        values |= _costs(result.plan, roadmap)
+        if not run.has("task_event"):
+            values |= _costs(result.plan, roadmap)
         for name in ("conflicts", "expansions", "generated", "low_level_expansions"):
             values[name] = _finite(result.statistics.get(name))
         bound = _finite(result.lower_bound)
         values["lower_bound_ticks"] = bound
-        values["suboptimality"] = None if bound is None else _ratio(result.plan.sum_of_costs, bound)
+        if bound is not None and values["sum_of_costs"] is not None:
+            values["suboptimality"] = _ratio(result.plan.sum_of_costs, bound)
         return values
 
 

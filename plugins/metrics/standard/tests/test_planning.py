@@ -2,6 +2,8 @@
 
 import math
 
+import attrs
+import numpy as np
 import pytest
 from mrpbench_metrics_standard import Planning
 
@@ -52,6 +54,13 @@ def test_without_a_plan_only_solved_is_known(planned):
     values = Planning().measure(planned(None, [0, 1], status=PlanStatus.TIMEOUT, statistics={"expansions": 5.0}))
     assert values.pop("solved") is False
     assert set(values.values()) == {None}
+
+
+def test_the_plan_before_tasks_come_has_no_costs(planned):
+    run = attrs.evolve(planned([AT_HOME], [0], lower_bound=0.0), channels={"task_event": lambda: np.zeros(0, "U9")})
+    values = Planning().measure(run)
+    assert (values["solved"], values["lower_bound_ticks"]) == (True, 0)
+    assert values["makespan"] is values["sum_of_costs"] is values["moves"] is values["suboptimality"] is None
 
 
 def test_every_column_is_measured_and_no_other(planned):
