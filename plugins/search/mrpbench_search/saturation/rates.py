@@ -11,9 +11,9 @@ from itertools import pairwise
 
 import attrs
 import numpy as np
+from scipy.stats import t as student
 
 from mrpbench_core.report.statistics.estimate import LEVEL
-from mrpbench_core.report.statistics.student import quantile
 
 TOLERANCE = 0.05
 """Share of the tasks that piles up at the saturation rate. Short runs show a little growth below it."""
@@ -48,7 +48,7 @@ class Growth:
 def growth(shares: Sequence[float]) -> Growth:
     """Return the growth that the shares of at least two seeds show."""
     centre, count = float(np.mean(shares)), len(shares)
-    reach = quantile(LEVEL, count - 1) * float(np.std(shares, ddof=1)) / math.sqrt(count)
+    reach = float(student.ppf(LEVEL, count - 1)) * float(np.std(shares, ddof=1)) / math.sqrt(count)
     return Growth(centre, centre - reach, centre + reach)
 
 
