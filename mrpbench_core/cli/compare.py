@@ -20,6 +20,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--metrics", metavar="X,Y", help="columns to compare, or `all` (default: the primary columns)")
     parser.add_argument("--by", metavar="X,Y", help="options in which configurations must agree; others are pooled")
     parser.add_argument("--json", action="store_true", help="print as JSON")
+    parser.add_argument("--markdown", action="store_true", help="print one Markdown table, for a pull request")
     parser.add_argument("--csv", metavar="FILE", help="write all comparisons to a file")
 
 
@@ -48,6 +49,12 @@ def run(arguments: argparse.Namespace) -> int:
                 "rules": dict(RULES),
             }
         )
+        return int(counts["worse"] > 0)
+    if arguments.markdown:
+        from mrpbench_core.report.tables.changes import changes_table
+        from mrpbench_core.report.tables.write import markdown
+
+        print(markdown([changes_table(found.comparisons)]), end="")
         return int(counts["worse"] > 0)
     print(f"A: {arguments.first}, {counted(len(first), 'run')}\nB: {arguments.second}, {counted(len(second), 'run')}")
     for name, (one, other) in found.differing.items():

@@ -7,6 +7,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.metric import Column
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.report.estimation.groups import Setting, differing_factors
 from mrpbench_core.report.reading.columns import direction
 from mrpbench_core.report.reading.runs import Runs
@@ -30,6 +31,8 @@ class Comparison:
     unpaired: tuple[int, int]
     """Number of units of each group that have a value but no partner."""
     p_adjusted: float = 1.0
+    steps: Float = attrs.field(factory=lambda: np.empty(0), eq=False, repr=False)
+    """f8[units], second minus first."""
 
     @property
     def is_mixed(self) -> bool:
@@ -65,6 +68,7 @@ def compare_pair(runs: Runs, setting: Setting, first: int, second: int, columns:
                     is_rate=is_rate,
                     found=difference,
                     unpaired=(len(one) - len(both), len(other) - len(both)),
+                    steps=right - left,
                 )
             )
     return found

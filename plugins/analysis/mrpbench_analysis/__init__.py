@@ -1,1 +1,1 @@
-"""Recordings of any fleet, measured as if mrpbench had made them; saturation of fleets; calibration of roadmaps."""
+"""Recordings of any fleet, measured as if mrpbench had made them; calibration of roadmaps."""

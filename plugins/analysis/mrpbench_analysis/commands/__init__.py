@@ -6,4 +6,3 @@ ANALYZE = Command(
     "compute metrics of a bag from a real fleet or another simulator", "mrpbench_analysis.commands.analyze"
 )
 CALIBRATE = Command("fit the durations of a roadmap to how a controller drives", "mrpbench_analysis.commands.calibrate")
-SATURATE = Command("find the rate of tasks that the fleets of a study can serve", "mrpbench_analysis.commands.saturate")

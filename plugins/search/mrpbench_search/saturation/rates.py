@@ -11,6 +11,7 @@ from itertools import pairwise
 
 import attrs
 import numpy as np
+from scipy.stats import t as student
 
 from mrpbench_analysis.student import quantile
 from mrpbench_core.report.statistics.estimate import LEVEL
@@ -48,7 +49,7 @@ class Growth:
 def growth(shares: Sequence[float]) -> Growth:
     """Return the growth that the shares of at least two seeds show."""
     centre, count = float(np.mean(shares)), len(shares)
-    reach = quantile(LEVEL, count - 1) * float(np.std(shares, ddof=1)) / math.sqrt(count)
+    reach = float(student.ppf(LEVEL, count - 1)) * float(np.std(shares, ddof=1)) / math.sqrt(count)
     return Growth(centre, centre - reach, centre + reach)
 
 

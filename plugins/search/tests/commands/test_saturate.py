@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-from mrpbench_analysis.commands.saturate import Search
+from mrpbench_search.commands.saturate import Search
 
 STUDY = """\
 name: shuttle

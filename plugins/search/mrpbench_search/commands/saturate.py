@@ -2,28 +2,22 @@
 
 import argparse
 import json
-import signal
-import sys
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from contextlib import nullcontext, redirect_stdout
 from pathlib import Path
 from typing import Any
 
 import attrs
 
-from mrpbench_analysis.saturation import TOLERANCE, Growth, growth, next_rate, saturation
-from mrpbench_core.cli.input.arguments import add_configuration, split_words
-from mrpbench_core.cli.output.progress import Printed
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.engine.loading.runs import StudyRun, StudyRuns
 from mrpbench_core.engine.processes.slots import slots_of_this_process
-from mrpbench_core.engine.study.options import StudyOptions
-from mrpbench_core.engine.study.reading import read_study
-from mrpbench_core.engine.study.study import run_study
-from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.report.reading.axes import NO_AXES, find_axes, name_axes
+from mrpbench_search.asking.arguments import add_search, searching, study_of
+from mrpbench_search.asking.requests import Requests, SearchEnded, read_whole_study, seeds_of
+from mrpbench_search.saturation.rates import TOLERANCE, Growth, growth, next_rate, saturation
 
 COLUMN = ".open_growth"
 UNITS = {"rate": "tasks/min", "scale": "1/scale"}
@@ -37,9 +31,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         " with 95 % confidence over seeds. Exit code: 0 every saturation rate has an interval, 1 some have none, 2 the"
         " configuration is wrong, 130 interrupted (the same command continues)."
     )
-    add_configuration(parser)
-    parser.add_argument("--out", metavar="DIR", help="results folder (default: results/NAME-saturate)")
-    parser.add_argument("--workers", type=int, default=1, metavar="N", help="number of runs at a time (default: 1)")
+    add_search(parser, "results/NAME-saturate")
     parser.add_argument(
         "--resolution",
         type=float,
@@ -47,7 +39,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="X",
         help="least distance between neighbouring rates, as a share from 0.01 to 1 (default: %(default)s)",
     )
-    parser.add_argument("--json", action="store_true", help="print the result as JSON; progress goes to stderr")
 
 
 @attrs.define
@@ -94,39 +85,42 @@ class Search:
 
 def run(arguments: argparse.Namespace) -> int:
     """Search the rates and print them."""
-    files, overrides = split_words(arguments.words)
-    if len(files) > 1:
-        raise InputError(f"{files[1]}: give one study at a time")
+    file, overrides = study_of(arguments)
     if not 0.01 <= arguments.resolution <= 1:
         raise InputError(f"--resolution {arguments.resolution:g}: from 0.01 to 1")
-    with slots_of_this_process() as slots:
-        study = _read(files[0], overrides)
+    with slots_of_this_process():
+        study = read_whole_study(file, overrides)
         option = _option(study)
         searches = _searches(study, option)
         out = Path(arguments.out or f"results/{study.name}-saturate")
-        signal.signal(signal.SIGTERM, signal.default_int_handler)  # batch systems end jobs with SIGTERM
-        with redirect_stdout(sys.stderr) if arguments.json else nullcontext():
-            while wanted := _wanted(searches, arguments.resolution):
-                for rate, keys in wanted.items():
-                    print(f"trying {rate:.4g} {UNITS[option]}: {'; '.join(searches[key].label for key in keys)}")
-                options = StudyOptions(overrides=overrides, out=out, workers=arguments.workers, progress=Printed())
-                _try(files[0], options, option, searches, wanted, slots)
-                for rate, keys in wanted.items():
-                    for search in (searches[key] for key in keys if rate in searches[key].tried):
-                        _, mean, low, high, verdict, failed = search.row(rate)
-                        runs = f" ({failed})" if failed else ""
-                        print(
-                            f"{search.label}: growth {mean} [{low}, {high}] at {rate:.4g}: {verdict}{runs}", flush=True
-                        )
-    _print(list(searches.values()), UNITS[option], out, arguments.json)
+        with searching(arguments, out, overrides) as requests:
+            end = _search(requests, file, overrides, option, searches, arguments.resolution)
+    _print(list(searches.values()), UNITS[option], out, end, arguments.json)
     return int(any(None in search.interval for search in searches.values()))
 
 
-def _read(file: str, overrides: Sequence[str]) -> StudyRuns:
-    study = read_study(file, overrides)
-    if study.errors:
-        raise InputErrors(*study.errors)
-    return study
+def _search(
+    requests: Requests,
+    file: str,
+    overrides: Sequence[str],
+    option: str,
+    searches: Mapping[str, Search],
+    resolution: float,
+) -> str | None:
+    """Try rates until no interval becomes shorter; return why the search ended before, if it did."""
+    while wanted := _wanted(searches, resolution):
+        for rate, keys in wanted.items():
+            print(f"trying {rate:.4g} {UNITS[option]}: {'; '.join(searches[key].label for key in keys)}")
+        try:
+            _try(requests, file, overrides, option, searches, wanted)
+        except SearchEnded as end:
+            return str(end)
+        for rate, keys in wanted.items():
+            for search in (searches[key] for key in keys if rate in searches[key].tried):
+                _, mean, low, high, verdict, failed = search.row(rate)
+                runs = f" ({failed})" if failed else ""
+                print(f"{search.label}: growth {mean} [{low}, {high}] at {rate:.4g}: {verdict}{runs}", flush=True)
+    return None
 
 
 def _option(study: StudyRuns) -> str:
@@ -157,7 +151,7 @@ def _searches(study: StudyRuns, option: str) -> dict[str, Search]:
     for point in study.runs:
         points[_key(point, option)].append(point)
     for found in points.values():
-        if len({point.canonical["seed"] for point in found}) < 2:
+        if len(seeds_of(found)) < 2:
             raise InputError("seed: a rate is judged by two seeds or more", hint="e.g. seed=0..4")
     labels = map(name_axes, find_axes([json.loads(key) for key in points]))
     starts = (float(found[0].canonical["tasks"][option]) for found in points.values())
@@ -177,31 +171,28 @@ def _wanted(searches: Mapping[str, Search], resolution: float) -> dict[float, li
 
 
 def _try(
+    requests: Requests,
     file: str,
-    options: StudyOptions,
+    overrides: Sequence[str],
     option: str,
     searches: Mapping[str, Search],
     wanted: Mapping[float, Sequence[str]],
-    slots: str,
 ) -> None:
     """Do the runs of one step of all searches, and judge them."""
     chosen: dict[tuple[float, str], list[StudyRun]] = defaultdict(list)
     name = f"tasks.{option}"
-    others = [text for text in options.overrides if text.partition("=")[0].strip() != name]  # it gave the first rate
+    others = [text for text in overrides if text.partition("=")[0].strip() != name]  # it gave the first rate
     for rate, keys in wanted.items():
-        study = _read(file, [*others, f"{name}={rate if option == 'rate' else 1 / rate!r}"])
+        study = read_whole_study(file, [*others, f"{name}={rate if option == 'rate' else 1 / rate!r}"])
         for point in study.runs:
             if (key := _key(point, option)) in keys:
                 chosen[rate, key].append(point)
-    both = attrs.evolve(study, runs=tuple(point for found in chosen.values() for point in found))
-    done = run_study(both, options, slots)
-    if done.mistakes:
-        raise InputErrors(*map(InputError, dict.fromkeys(done.mistakes.values())))
+    results = requests.results(study, [point for found in chosen.values() for point in found])
     for (rate, key), found in chosen.items():
-        searches[key].judge(rate, [done.results[point.run_id] for point in found])
+        searches[key].judge(rate, [results[point.run_id] for point in found])
 
 
-def _print(searches: Sequence[Search], unit: str, out: Path, as_json: bool) -> None:
+def _print(searches: Sequence[Search], unit: str, out: Path, end: str | None, as_json: bool) -> None:
     if as_json:
         rows = [attrs.asdict(search) | {"interval": search.interval} for search in searches]
         for row, search in zip(rows, searches, strict=True):
@@ -210,7 +201,7 @@ def _print(searches: Sequence[Search], unit: str, out: Path, as_json: bool) -> N
                 for rate, found in search.tried.items()
             ]
             del row["failed"]
-        print_json({"unit": unit, "tolerance": TOLERANCE, "out": str(out), "combinations": rows})
+        print_json({"unit": unit, "tolerance": TOLERANCE, "out": str(out), "ended": end, "combinations": rows})
         return
     for search in searches:
         print()
@@ -220,5 +211,7 @@ def _print(searches: Sequence[Search], unit: str, out: Path, as_json: bool) -> N
         low, high = ("–" if end is None else f"{end:.4g}" for end in search.interval)
         print(f"saturation rate: {low} to {high} {unit}" + (f"; stopped: {search.fault}" if search.fault else ""))
     print(f"\ngrowth: share of the tasks that piles up, with one-sided 95 % limits; runs are in {out}")
-    if any(None in search.interval for search in searches):
+    if end:
+        print(f"the search ended before: {end}")
+    elif any(None in search.interval for search in searches):
         print("an end is missing: longer runs or more seeds show more")

@@ -1,0 +1,1 @@
+"""Questions that are answered by a search over runs."""

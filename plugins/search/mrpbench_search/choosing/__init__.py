@@ -1,0 +1,1 @@
+"""The choice between candidates by a race on paired seeds."""

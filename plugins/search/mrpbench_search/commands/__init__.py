@@ -1,0 +1,7 @@
+"""The commands of this distribution."""
+
+from mrpbench_core.cli.command import Command
+
+CHOOSE = Command("find the best candidate of a study with as few seeds as it takes", "mrpbench_search.commands.choose")
+EVIDENCE = Command("compare two controllers or planners on a published protocol", "mrpbench_search.commands.evidence")
+SATURATE = Command("find the rate of tasks that the fleets of a study can serve", "mrpbench_search.commands.saturate")

@@ -1,0 +1,61 @@
+"""`mrpbench evidence A.yaml [B.yaml] --protocol NAME`: run candidates on a protocol and compare them."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from mrpbench_core.cli.output.table import print_json
+from mrpbench_core.engine.processes.slots import slots_of_this_process
+from mrpbench_core.engine.study.reading import read_study
+from mrpbench_core.files.errors import InputError, InputErrors
+from mrpbench_core.report.data import pairs_of
+from mrpbench_core.report.folder_comparison import compare_folders
+from mrpbench_core.report.tables.changes import changes_table
+from mrpbench_core.report.tables.write import markdown
+from mrpbench_search.asking.arguments import add_execution, searching
+from mrpbench_search.asking.requests import SearchEnded
+from mrpbench_search.evidence.protocol import PROTOCOLS
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Declare the arguments."""
+    parser.epilog = (
+        "A candidate is a YAML file with the block that the protocol leaves open, e.g. `controller: {plugin: dwb}`."
+        " With one file its runs are done, to be compared later. Exit code: 0 nothing is significantly worse in B, 1"
+        " something is or runs are missing, 2 the configuration is wrong, 130 interrupted."
+    )
+    parser.add_argument("first", metavar="A", help="candidate that is the reference")
+    parser.add_argument("second", metavar="B", nargs="?", help="candidate that is judged")
+    parser.add_argument("--protocol", required=True, choices=sorted(PROTOCOLS), help="worlds, fleets and seeds")
+    add_execution(parser, "results/PROTOCOL, with the folders A and B")
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Do the runs and print the table."""
+    protocol = PROTOCOLS[arguments.protocol]
+    files = [arguments.first, *([arguments.second] if arguments.second else [])]
+    out = Path(arguments.out or f"results/{protocol.name}")
+    with slots_of_this_process():
+        studies = [read_study(protocol.study(file)) for file in files]
+        for file, study in zip(files, studies, strict=True):
+            if study.errors:
+                raise InputErrors(*(InputError(error.message, file=file, hint=error.hint) for error in study.errors))
+        found = []
+        for letter, study in zip("AB", studies, strict=False):
+            folder = out / letter if arguments.second else out
+            with searching(arguments, folder, []) as requests:
+                try:
+                    found.append(requests.results(study, study.runs))
+                except SearchEnded as end:
+                    sys.stderr.write(f"{folder}: {end}\n")
+                    return 1
+    judged = ",".join(protocol.metrics)
+    if not arguments.second:
+        sys.stderr.write(f"compare it by `mrpbench compare A {out} --metrics {judged} --markdown`\n")
+        return 0
+    comparisons = compare_folders(*found, list(protocol.metrics), None).comparisons
+    if arguments.json:
+        print_json({"protocol": protocol.name, "comparisons": pairs_of(comparisons)})
+    else:
+        print(markdown([changes_table(comparisons)]), end="")
+    return int(any(entry.verdict == "worse" for entry in comparisons))

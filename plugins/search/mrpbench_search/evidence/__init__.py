@@ -1,0 +1,1 @@
+"""The comparison of two candidates on a published protocol."""

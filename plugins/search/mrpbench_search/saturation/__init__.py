@@ -1,0 +1,1 @@
+"""The saturation rate of a fleet."""

@@ -1,0 +1,80 @@
+"""`mrpbench choose STUDY`."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from mrpbench_core.store.results import load
+
+STUDY = """\
+name: room
+world: {plugin: movingai, file: tiny.map}
+roadmap: grid
+scenario: {plugin: random, robots: 2}
+assigner: identity
+simulator: none
+metrics: [planning]
+recording: {keep: none}
+matrix:
+  planner: [{plugin: example, label: one}, {plugin: example, label: two}]
+  seed: 0..19
+"""
+
+
+@pytest.fixture
+def room(mrpbench):
+    Path("room.yaml").write_text(STUDY)
+    return mrpbench
+
+
+def test_equal_candidates_are_as_good_and_nothing_is_done_twice(room):
+    code, output, errors = room("choose", "room.yaml", "--json")
+    assert code == 0, errors
+    told = json.loads(output)
+    (setting,) = told["settings"]
+    assert setting["answer"] == "one; two is as good within 2 %"
+    assert told["metric"] == "planning.sum_of_costs"
+    assert told["runs"] == len(load("results/room")) < told["runs_of_study"] == 40
+    code, again, errors = room("choose", "room.yaml", "--json")
+    assert (code, again) == (0, output)
+    assert "[1/" not in errors
+
+
+def test_a_budget_ends_the_race_before_a_step_that_exceeds_it(room):
+    code, output, _ = room("choose", "room.yaml", "--budget", "10runs")
+    assert code == 1
+    assert "the search ended before: the budget is spent" in output
+    assert "room: nothing is decided" in output
+
+
+def test_shards_of_a_step_are_merged_by_copying(room):
+    for part in "01":
+        code, output, _ = room("choose", "room.yaml", "--shard", f"{part}/2", "--out", "parts")
+    assert code == 0  # the second shard finds the runs of the first one in its folder
+    assert "one; two is as good within 2 %" in output
+
+
+def test_a_shard_alone_says_what_it_lacks(room):
+    code, output, _ = room("choose", "room.yaml", "--shard", "0/2")
+    assert code == 1
+    assert "of other shards are not in results/room" in output
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("seed=0..2",), "seed: 3 seeds cannot decide between 2 candidates"),
+        (("planner=example",), "the study has one candidate"),
+        (("--metric", "planning.sum"), "the study has no such column"),
+        (("--metric", "planning.moves"), "neither more nor less of it is better"),
+        (("--margin", "2"), "--margin 2: between 0 and 1"),
+        (("--budget", "soon"), "--budget soon: expected a time"),
+        (("metrics=[]",), "--metric: the study measures none of"),
+    ],
+)
+def test_mistakes_are_one_line(room, words, message):
+    code, _, errors = room("choose", "room.yaml", *words)
+    assert code == 2
+    assert message in errors
+    assert len(errors.splitlines()) == 1
