@@ -17,6 +17,7 @@ EXTRAS = {
     "figures": "mrpbench-core[figures]",
     "geo": "mrpbench-core[geo]",
     "images": "mrpbench-core[images]",
+    "mujoco": "mrpbench-simulators-mujoco",
     "ortools": "mrpbench-assigners-ortools",
     "parquet": "mrpbench-core[parquet]",
     "pybullet": "mrpbench-simulators-pybullet",

@@ -16,7 +16,7 @@ from mrpbench_core.model.common.fleet import RobotModel
 
 _CLEARANCE = 0.01
 """metres between the floor and the body of a robot without a URDF."""
-_PLAY = 0.0015
+_PLAY = 0.0005
 """metres between floor and casters when such a robot is level, so that its wheels bear the weight."""
 _WHEEL_SHARE = 0.1
 """Mass of one wheel as a share of such a robot's, as in the TurtleBot3's model for Gazebo; light wheels err more."""

@@ -7,6 +7,7 @@ from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_simulators_bodies.engine import BURIED, ContactForces, Engine
 from mrpbench_simulators_bodies.scene import MOVER_HEIGHT, Scene
 from mrpbench_simulators_mujoco.model import FLOOR, FREE, PLANAR, Built, build_model
+from mrpbench_simulators_mujoco.motors import Motors
 
 
 class MuJoCoEngine(Engine):
@@ -19,14 +20,19 @@ class MuJoCoEngine(Engine):
         self._data.qpos[:] = built.start
         self._owner, self._leaf_heights = built.owner, built.leaf_heights
         self._movers, self._leaves = built.movers, built.leaves
+        self._axle = np.array([robot.wheel_radius for robot in scene.robots])
         self._coordinates, self._speeds = PLANAR if scene.planar else FREE
         self._positions = self._data.qpos.reshape(self._count, self._coordinates)
+        wheels = np.arange(self._count * self._speeds).reshape(self._count, self._speeds)[:, 6:].ravel()
+        self._motors = None if scene.planar else Motors(self._model, self._data, scene, wheels)
         self._velocities = self._data.qvel.reshape(self._count, self._speeds)
         self.place_movers(np.full((len(self._movers), 2), np.inf))
         mujoco.mj_forward(self._model, self._data)
 
     def advance(self) -> None:
         """Do one physics step."""
+        if self._motors is not None:
+            self._motors.before_step()
         mujoco.mj_step(self._model, self._data)
 
     def contacts(self) -> ContactForces:
@@ -44,7 +50,7 @@ class MuJoCoEngine(Engine):
         return found
 
     def observe(self) -> tuple[Float, Float]:
-        """Poses f8[n,3] and twists f8[n,2]."""
+        """Poses f8[n,3] of the floor below the middle of the axles, and twists f8[n,2]."""
         position, velocity = self._positions, self._velocities
         if self._planar:
             pose = position.copy()
@@ -52,9 +58,13 @@ class MuJoCoEngine(Engine):
             turn = velocity[:, 2]
         else:
             w, x, y, z = position[:, 3:7].T
-            pose = np.column_stack([position[:, :2], np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))])
+            lean = np.column_stack([2 * (x * z + w * y), 2 * (y * z - w * x)])  # of the vertical axis, when it pitches
+            place = position[:, :2] + lean * self._axle[:, None]
+            pose = np.column_stack([place, np.arctan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z))])
             turn = velocity[:, 5]
         ahead = velocity[:, 0] * np.cos(pose[:, 2]) + velocity[:, 1] * np.sin(pose[:, 2])
+        if not self._planar:
+            ahead += velocity[:, 4] * self._axle
         return pose, np.column_stack([ahead, turn])
 
     def heights(self) -> Float:
@@ -69,7 +79,8 @@ class MuJoCoEngine(Engine):
 
     def turn_wheels(self, robots: Int, speed: Float) -> None:
         """Set the speeds of the motors."""
-        self._data.ctrl.reshape(-1, 2)[robots] = speed
+        assert self._motors is not None
+        self._motors.set(robots, speed)
 
     def move(self, velocity: Float) -> None:
         """Set the velocities of bodies in the plane."""

@@ -26,9 +26,9 @@ _GROUND, _ROBOT, _THING = 1, 2, 4
 _WHEEL_CONTACT = ([0.02, 1.0], [0.999, 0.999, 0.001, 0.5, 2.0])
 """Time constant and damping ratio, and impedance: stiff enough that speeds err by less than a thousandth."""
 _BODY_CONTACT = ([0.02, 1.0], [0.95, 0.99, 0.001, 0.5, 2.0])
-_ROTOR = 0.2
+_ROTOR = 0.5
 """Inertia of a motor behind its gear, as a share of that of the whole mass at the rim of its wheel."""
-_MOTOR_LAG = 0.005
+_MOTOR_LAG = 0.01
 """seconds in which a motor that bears the whole mass approaches its speed, unless its torque is at its limit."""
 _KINDS = {
     "box": mujoco.mjtGeom.mjGEOM_BOX,

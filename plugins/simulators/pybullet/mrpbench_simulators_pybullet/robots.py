@@ -13,6 +13,8 @@ from mrpbench_simulators_pybullet.bullet import Bullet, Group
 
 _MOST_SHAPES = 120
 """Of a robot: PyBullet takes at most 128 links."""
+_MARGIN = 0.001
+"""metres that Bullet adds around a convex hull."""
 _NO_MASS = 1e-6
 _DAMPING = {"restitution": 0, "linearDamping": 0, "angularDamping": 0}
 
@@ -105,7 +107,7 @@ def body_shape(bullet: Bullet, shape: Shape) -> int:
         "sphere": lambda: {"shapeType": module.GEOM_SPHERE, "radius": shape.size[0]},
         "cylinder": lambda: {"shapeType": module.GEOM_CYLINDER, "radius": shape.size[0], "height": shape.size[1]},
         "capsule": lambda: {"shapeType": module.GEOM_CAPSULE, "radius": shape.size[0], "height": shape.size[1]},
-        "hull": lambda: {"shapeType": module.GEOM_MESH, "vertices": shape.points.tolist()},
+        "hull": lambda: {"shapeType": module.GEOM_MESH, "vertices": _within_margin(shape.points).tolist()},
     }
     made: int = bullet.createCollisionShape(
         **kinds[shape.kind](),
@@ -113,6 +115,13 @@ def body_shape(bullet: Bullet, shape: Shape) -> int:
         collisionFrameOrientation=_quaternion(shape.frame[:3, :3]),
     )
     return made
+
+
+def _within_margin(points: Float) -> Float:
+    """Raise the lowest points f8[k,3] of a hull by what Bullet adds around it, if they are as near to the floor."""
+    raised = points.copy()
+    raised[:, 2] += np.where((points[:, 2] > 0) & (points[:, 2] < _MARGIN), _MARGIN, 0.0)
+    return raised
 
 
 def upright(yaw: float) -> tuple[float, float, float, float]:
