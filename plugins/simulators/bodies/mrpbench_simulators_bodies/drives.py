@@ -52,13 +52,16 @@ class Wheels(Drive):
     def before_step(self) -> None:
         if self._reached:
             return
-        change = np.clip(self._command - self._target, -self._ramp, self._ramp)
-        self._target = self._target + change
-        changed = np.flatnonzero(change.any(axis=1))
+        gap = self._command - self._target
+        changed = gap.any(axis=1).nonzero()[0]
         self._reached = not len(changed)
-        forward = self._target[:, 0] * self._per_metre
-        turn = self._target[:, 1] * self._per_radian
-        self._engine.turn_wheels(changed, np.column_stack([forward - turn, forward + turn])[changed])
+        if self._reached:
+            return
+        near = np.abs(gap) <= self._ramp  # the sum of the steps would miss the command by a rounding error
+        self._target = np.where(near, self._command, self._target + np.copysign(self._ramp, gap))
+        forward = self._target[changed, 0] * self._per_metre[changed]
+        turn = self._target[changed, 1] * self._per_radian[changed]
+        self._engine.turn_wheels(changed, np.column_stack([forward - turn, forward + turn]))
 
     def observe(self) -> tuple[Float, Float]:
         return self._engine.observe()

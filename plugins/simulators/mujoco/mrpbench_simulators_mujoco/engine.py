@@ -29,20 +29,26 @@ class MuJoCoEngine(Engine):
         self.place_movers(np.full((len(self._movers), 2), np.inf))
         mujoco.mj_forward(self._model, self._data)
 
+    def prepare(self, place: Float) -> None:
+        """Let the motors take over steady errors."""
+        del place
+        if self._motors is not None:
+            self._motors.prepare()
+
     def advance(self) -> None:
         """Do one physics step."""
-        if self._motors is not None:
-            self._motors.before_step()
         mujoco.mj_step(self._model, self._data)
 
     def contacts(self) -> ContactForces:
         """Who touched in the last step, and how hard."""
-        contact = self._data.contact
-        owners = self._owner[contact.geom]
-        rows = np.flatnonzero((owners != FLOOR).all(axis=1))
         found: dict[tuple[int, int], float] = {}
-        for row in rows.tolist():
-            first, second = owners[row].tolist()
+        contact = self._data.contact
+        first_owner, second_owner = self._owner[contact.geom].T
+        counts = (first_owner != FLOOR) & (second_owner != FLOOR)
+        if not counts.any():
+            return found
+        for row in counts.nonzero()[0].tolist():
+            first, second = int(first_owner[row]), int(second_owner[row])
             pair = (second, first) if first < 0 or 0 <= second < first else (first, second)
             address = contact.efc_address[row]
             force = float(self._data.efc_force[address]) if address >= 0 else 0.0  # without friction: the normal force
@@ -70,6 +76,25 @@ class MuJoCoEngine(Engine):
     def heights(self) -> Float:
         """Heights f8[n] of the base frames above the floor, metres, and 0 for robots that keep to the plane."""
         return np.zeros(self._count) if self._planar else self._positions[:, 2].copy()
+
+    def tilts(self) -> Float:
+        """Angles f8[n] between the robots' vertical axes and the vertical, radians."""
+        x, y = self._positions[:, 4:6].T
+        tilts: Float = np.arccos(np.clip(1 - 2 * (x * x + y * y), -1, 1))
+        return tilts
+
+    def velocities(self) -> Float:
+        """f8[n,3] of bodies in the plane: m/s along x and y, rad/s."""
+        return self._velocities.copy()
+
+    def weight(self) -> float:
+        """Newton with which all robots press on the floor."""
+        force, total = np.empty(6), 0.0
+        for index, pair in enumerate(self._owner[self._data.contact.geom].tolist()):
+            if FLOOR in pair:
+                mujoco.mj_contactForce(self._model, self._data, index, force)
+                total += float(force[0])
+        return total
 
     def place(self, robot: int, x: float, y: float) -> None:
         """Move a robot to x, y."""

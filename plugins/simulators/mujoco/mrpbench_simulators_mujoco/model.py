@@ -25,7 +25,8 @@ _GROUND, _ROBOT, _THING = 1, 2, 4
 """Bits of contacts."""
 _WHEEL_CONTACT = ([0.02, 1.0], [0.999, 0.999, 0.001, 0.5, 2.0])
 """Time constant and damping ratio, and impedance: stiff enough that speeds err by less than a thousandth."""
-_BODY_CONTACT = ([0.02, 1.0], [0.95, 0.99, 0.001, 0.5, 2.0])
+_BODY_CONTACT = ([0.03, 1.0], [0.6, 0.9, 0.003, 0.5, 2.0])
+"""Softer, so that robots that push a wall with slipping wheels do not chatter."""
 _ROTOR = 0.5
 """Inertia of a motor behind its gear, as a share of that of the whole mass at the rim of its wheel."""
 _MOTOR_LAG = 0.01

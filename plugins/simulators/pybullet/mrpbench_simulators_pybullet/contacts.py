@@ -8,7 +8,7 @@ from mrpbench_core.model.common.arrays import Float
 from mrpbench_simulators_bodies.engine import ContactForces
 from mrpbench_simulators_pybullet.bullet import Bullet
 
-_DISTANCE, _FORCE = 8, 9
+_DISTANCE, FORCE = 8, 9
 """Entries of a contact point."""
 
 
@@ -35,11 +35,11 @@ class Contacts:
         found: dict[tuple[int, int], float] = {}
         for obstacle, other in self._obstacles:
             for point in self._bullet.getContactPoints(bodyA=obstacle):
-                if point[_DISTANCE] <= 0:
+                if point[_DISTANCE] <= 0 or point[FORCE] > 0:
                     pair = (self._index[point[2]], other)
-                    found[pair] = found.get(pair, 0.0) + point[_FORCE]
+                    found[pair] = found.get(pair, 0.0) + point[FORCE]
         for first, second in self._close:
             for point in self._bullet.getContactPoints(bodyA=self._robots[first], bodyB=self._robots[second]):
-                if point[_DISTANCE] <= 0:
-                    found[first, second] = found.get((first, second), 0.0) + point[_FORCE]
+                if point[_DISTANCE] <= 0 or point[FORCE] > 0:
+                    found[first, second] = found.get((first, second), 0.0) + point[FORCE]
         return found

@@ -8,7 +8,7 @@ from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_simulators_bodies.engine import BURIED, ContactForces, Engine
 from mrpbench_simulators_bodies.scene import MOVER_HEIGHT, Scene
 from mrpbench_simulators_pybullet.bullet import Bullet, Group, quiet
-from mrpbench_simulators_pybullet.contacts import Contacts
+from mrpbench_simulators_pybullet.contacts import FORCE, Contacts
 from mrpbench_simulators_pybullet.robots import BulletRobot, build_flat, build_robot, upright
 from mrpbench_simulators_pybullet.walls import build_walls
 
@@ -36,7 +36,7 @@ class BulletEngine(Engine):
                 pairs = zip(scene.robots, scene.poses, strict=True)
                 self.bodies = [build_flat(bullet, model, pose) for model, pose in pairs]
             else:
-                ground = bullet.body(Group.GROUND, bullet.createCollisionShape(bullet.module.GEOM_PLANE))
+                ground = self._ground = bullet.body(Group.GROUND, bullet.createCollisionShape(bullet.module.GEOM_PLANE))
                 bullet.changeDynamics(ground, -1, lateralFriction=1, restitution=0)
                 robots = zip(scene.robots, scene.bodies, scene.poses, strict=True)
                 self._wheeled = [build_robot(bullet, *robot) for robot in robots]
@@ -79,6 +79,10 @@ class BulletEngine(Engine):
             pose[robot] = x, y, yaw
             twist[robot] = vx * math.cos(yaw) + vy * math.sin(yaw), turn
         return pose, twist
+
+    def weight(self) -> float:
+        """Newton with which all robots press on the floor."""
+        return float(sum(point[FORCE] for point in self.bullet.getContactPoints(bodyA=self._ground)))
 
     def place(self, robot: int, x: float, y: float) -> None:
         """Move a robot to x, y."""
