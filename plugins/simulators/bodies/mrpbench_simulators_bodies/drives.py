@@ -20,7 +20,7 @@ class Drive(ABC):
     def command(self, twist: Float) -> None:
         """Set the twists f8[n,2], within the limits of the robots, for the control period that begins."""
 
-    def before_step(self) -> None:
+    def before_step(self) -> None:  # noqa: B027 - bodies in the plane keep their speed
         """Prepare the next physics step."""
 
     @abstractmethod
@@ -47,9 +47,11 @@ class Wheels(Drive):
         engine.turn_wheels(np.arange(len(robots)), np.zeros((len(robots), 2)))
 
     def command(self, twist: Float) -> None:
+        """Ramp up to the twists f8[n,2]."""
         self._command, self._reached = twist, False
 
     def before_step(self) -> None:
+        """Set the speeds of the motors."""
         if self._reached:
             return
         gap = self._command - self._target
@@ -64,9 +66,11 @@ class Wheels(Drive):
         self._engine.turn_wheels(changed, np.column_stack([forward - turn, forward + turn]))
 
     def observe(self) -> tuple[Float, Float]:
+        """Return what the engine says."""
         return self._engine.observe()
 
     def place(self, robot: int, x: float, y: float) -> None:
+        """Move a robot to x, y."""
         self._engine.place(robot, x, y)
 
 
@@ -84,6 +88,7 @@ class Plane(Drive):
         self._twist = np.zeros((len(scene.robots), 2))
 
     def command(self, twist: Float) -> None:
+        """Set the velocities of this period."""
         way = self._acceleration * self._period
         change = np.clip(twist - self._twist, -way, way)
         # Mean over the period of a speed that changes at full acceleration until it is reached, and then stays.
@@ -112,5 +117,6 @@ class Plane(Drive):
         return pose, self._twist.copy()
 
     def place(self, robot: int, x: float, y: float) -> None:
+        """Move a robot to x, y, at rest."""
         self._pose[robot, :2] = x, y
         self._engine.place(robot, x, y)

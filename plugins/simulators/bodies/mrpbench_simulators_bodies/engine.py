@@ -15,7 +15,7 @@ does not move."""
 class Engine(ABC):
     """A scene in motion. It advances in steps of `Scene.timestep`, which begin with the commands that hold then."""
 
-    def prepare(self, place: Float) -> None:
+    def prepare(self, place: Float) -> None:  # noqa: B027 - not every engine has to
         """A control period begins, with the robots at f8[n,2]."""
 
     @abstractmethod
@@ -25,7 +25,8 @@ class Engine(ABC):
     @abstractmethod
     def contacts(self) -> ContactForces:
         """Who touched in the last step, and the sum of the normal forces between the two. Wheels on the floor do not
-        count."""
+        count.
+        """
 
     @abstractmethod
     def observe(self) -> tuple[Float, Float]:

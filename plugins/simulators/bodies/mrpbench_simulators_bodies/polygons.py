@@ -52,7 +52,7 @@ def raster_rectangles(occupancy: Occupancy) -> list[Float]:
     for row in range(rows + 1):
         here = by_row.get(row, set())
         for run in [run for run in open_runs if run not in here]:
-            found.append(_rectangle(occupancy, run[0], open_runs.pop(run), run[1], row))
+            found += [_rectangle(occupancy, run[0], open_runs.pop(run), run[1], row)]
         for run in here:
             open_runs.setdefault(run, row)
     margin = max(1, round(_FRAME / occupancy.cell_size))

@@ -127,7 +127,7 @@ class _Reader:
         size: list[float] = []
         for name, count in SHAPES[geometry.tag].items():
             size += numbers(geometry, name, (0.0,) * count, self._file).tolist()
-        kind: "str" = geometry.tag
+        kind: str = geometry.tag
         return [Shape(kind=kind, size=tuple(size), frame=frame, part=part, touches_floor=floor)]  # type: ignore[arg-type]
 
     def _mesh(self, name: str) -> list[Float]:

@@ -30,7 +30,9 @@ def test_a_robot_pushes_a_wall_as_hard_as_its_wheels_hold(kind):
 
 def test_a_body_that_hits_a_wall_gives_it_its_momentum(kind):
     """Without weight and motors: the impulse of the contact is the change of momentum."""
-    with kind(model="body").open(FURNISHED, Fleet(robots=(BURGER,)), np.array([[5.85, 3.5, 0.0]]), 0, PERIOD) as simulation:
+    with kind(model="body").open(
+        FURNISHED, Fleet(robots=(BURGER,)), np.array([[5.85, 3.5, 0.0]]), 0, PERIOD
+    ) as simulation:
         engine, impulse = simulation.engine, 0.0
         engine.prepare(np.array([[5.85, 3.5]]))
         engine.move(np.array([[0.2, 0.0, 0.0]]))

@@ -2,10 +2,10 @@
 
 import mujoco
 import numpy as np
-
-from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_simulators_bodies.engine import BURIED, ContactForces, Engine
 from mrpbench_simulators_bodies.scene import MOVER_HEIGHT, Scene
+
+from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_simulators_mujoco.model import FLOOR, FREE, PLANAR, Built, build_model
 from mrpbench_simulators_mujoco.motors import Motors
 

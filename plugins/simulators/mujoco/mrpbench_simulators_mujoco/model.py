@@ -11,11 +11,11 @@ import math
 import attrs
 import mujoco
 import numpy as np
-
-from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_simulators_bodies.body import RobotBody, Shape, prism
 from mrpbench_simulators_bodies.engine import BURIED
 from mrpbench_simulators_bodies.scene import HEIGHT, MOVER_HEIGHT, Scene
+
+from mrpbench_core.model.common.arrays import Float, Int
 
 FLOOR = -2
 """In `Built.owner`: the floor, and wheels, which touch nothing else."""

@@ -2,9 +2,9 @@
 
 import mujoco
 import numpy as np
+from mrpbench_simulators_bodies.scene import Scene
 
 from mrpbench_core.model.common.arrays import Float, Int
-from mrpbench_simulators_bodies.scene import Scene
 
 _SHARE = 0.3
 """Share of a steady error that the integral part takes over in each control period."""
@@ -13,7 +13,7 @@ _MOST = 0.02
 
 
 class Motors:
-    """Holds the speeds of wheels. The integral part works at a steady speed only, and not at the limit of the torque."""
+    """Holds the speeds of wheels. The integral part works at steady speeds, below the limit of the torque."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, scene: Scene, wheel: Int) -> None:
         """`wheel` i8[2n] are the indices of the wheels' speeds."""

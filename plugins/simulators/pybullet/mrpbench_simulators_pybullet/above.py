@@ -10,16 +10,15 @@ from itertools import pairwise
 
 import attrs
 import numpy as np
+from mrpbench_simulators_bodies.polygons import row_rectangles, triangulate
+from mrpbench_simulators_bodies.scene import HEIGHT
 
 from mrpbench_core.checking.occupancy import bounds
 from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.worlds.occupancy import Occupancy
 from mrpbench_core.model.worlds.solids import wall_boxes
 from mrpbench_core.model.worlds.world import Level
-from mrpbench_simulators_bodies.polygons import row_rectangles, triangulate
-from mrpbench_simulators_bodies.scene import HEIGHT
 from mrpbench_simulators_pybullet.bullet import SEEN, Bullet, Group, quiet
-
 
 ABOVE = 1.0
 """metres above the highest roof at which rays begin."""

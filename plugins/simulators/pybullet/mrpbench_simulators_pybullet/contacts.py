@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 
 import numpy as np
+from mrpbench_simulators_bodies.engine import ContactForces
 
 from mrpbench_core.model.common.arrays import Float
-from mrpbench_simulators_bodies.engine import ContactForces
 from mrpbench_simulators_pybullet.bullet import Bullet
 
 _DISTANCE, FORCE = 8, 9

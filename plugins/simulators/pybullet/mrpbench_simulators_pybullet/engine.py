@@ -3,10 +3,10 @@
 import math
 
 import numpy as np
-
-from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_simulators_bodies.engine import BURIED, ContactForces, Engine
 from mrpbench_simulators_bodies.scene import MOVER_HEIGHT, Scene
+
+from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_simulators_pybullet.bullet import Bullet, Group, quiet
 from mrpbench_simulators_pybullet.contacts import FORCE, Contacts
 from mrpbench_simulators_pybullet.robots import BulletRobot, build_flat, build_robot, upright

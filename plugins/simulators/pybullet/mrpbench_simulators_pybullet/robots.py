@@ -4,11 +4,11 @@ import math
 
 import attrs
 import numpy as np
+from mrpbench_simulators_bodies.body import RobotBody, Shape, prism
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import RobotModel
-from mrpbench_simulators_bodies.body import RobotBody, Shape, prism
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
 
 _MOST_SHAPES = 120
@@ -39,7 +39,9 @@ def build_robot(bullet: Bullet, model: RobotModel, body: RobotBody, pose: Float)
     if len(body.shapes) > _MOST_SHAPES:
         file = model.urdf.file if model.urdf else None
         hint = "use `simulator: mujoco`"
-        raise InputError(f"has {len(body.shapes)} collision shapes, PyBullet takes {_MOST_SHAPES}", file=file, hint=hint)
+        raise InputError(
+            f"has {len(body.shapes)} collision shapes, PyBullet takes {_MOST_SHAPES}", file=file, hint=hint
+        )
     module = bullet.module
     x, y, yaw = pose.tolist()
     shapes = [(body_shape(bullet, shape), shape) for shape in body.shapes]
@@ -49,8 +51,6 @@ def build_robot(bullet: Bullet, model: RobotModel, body: RobotBody, pose: Float)
     moments, axes = body.principal()
     centre, turn = body.centre.tolist(), _quaternion(axes)
     places = [wheel.place for wheel in body.wheels] + [(0.0, 0.0, 0.0)] * len(fixed)
-    # Bullet counts the places of links from the parent's centre of mass along its principal axes, which here are those
-    # of the base frame until the inertia is set.
     links = len(places)
     identity = [0.0, 0.0, 0.0, 1.0]
     index = bullet.body(

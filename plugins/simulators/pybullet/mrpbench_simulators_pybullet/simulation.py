@@ -3,9 +3,10 @@
 from collections.abc import Sequence
 from typing import Any
 
+from mrpbench_simulators_bodies.simulation import BodySimulation
+
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Lidar
-from mrpbench_simulators_bodies.simulation import BodySimulation
 from mrpbench_simulators_pybullet.bullet import quiet
 from mrpbench_simulators_pybullet.engine import BulletEngine
 from mrpbench_simulators_pybullet.rays import RayTests

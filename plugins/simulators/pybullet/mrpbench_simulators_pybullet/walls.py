@@ -1,9 +1,9 @@
 """Everything solid as static triangle meshes; one concave mesh is several times faster than many boxes."""
 
 import numpy as np
+from mrpbench_simulators_bodies.scene import HEIGHT
 
 from mrpbench_core.model.common.arrays import Float
-from mrpbench_simulators_bodies.scene import HEIGHT
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
 
 _SEGMENTS = 10_000
