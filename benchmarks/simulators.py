@@ -31,7 +31,7 @@ PERIOD = 0.05
 WIDTH, HEIGHT = 22.0, 27.0
 BURGER = load_robot("turtlebot3_burger")
 LIMIT = np.array([BURGER.max_speed, BURGER.max_turn_rate])
-MOST = {"kinematic": 1000, "pybullet": 100, "pybullet body": 100}
+MOST = {"kinematic": 1000, "mujoco": 100, "pybullet": 100, "pybullet body": 100}
 """Robots; with more, a simulator that was not made for it takes minutes."""
 BUDGET = 0.4
 """Seconds of wall time for one measurement."""
@@ -67,6 +67,10 @@ def placements(world: World, robots: int) -> Float:
 def simulators() -> dict[str, Simulator]:
     """Return the simulators whose libraries are installed."""
     found: dict[str, Simulator] = {"planar": Planar(), "kinematic": Kinematic()}
+    if find_spec("mujoco") is not None:
+        from mrpbench_simulators_mujoco import MuJoCo
+
+        found["mujoco"] = MuJoCo()
     if find_spec("pybullet") is not None:
         from mrpbench_simulators_pybullet import PyBullet
 

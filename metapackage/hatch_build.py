@@ -18,6 +18,7 @@ EXTRAS = {
     "figures": "mrpbench-core[figures]",
     "geo": "mrpbench-standard[geo]",
     "images": "mrpbench-standard[images]",
+    "mujoco": "mrpbench-simulators-mujoco",
     "ortools": "mrpbench-assigners-ortools",
     "parquet": "mrpbench-core[parquet]",
     "pybullet": "mrpbench-simulators-pybullet",

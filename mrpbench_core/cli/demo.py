@@ -1,6 +1,7 @@
-"""`mrpbench demo`: run the whole stack once, on a small scenario."""
+"""`mrpbench demo`: compare two planners with the whole stack, on a few small scenarios."""
 
 import argparse
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,10 +26,15 @@ from mrpbench_core.store.results import Results
 WANTED = {
     "assigner": ("hungarian", "identity"),
     "planner": ("cbs", "prioritized", "example"),
-    "simulator": ("pybullet", "planar", "kinematic"),
+    "simulator": ("mujoco", "pybullet", "planar", "kinematic"),
     "controller": ("pure_pursuit",),
 }
 """Plugins of each kind in order of preference: the demo uses the first that works here."""
+ALONE = "astar"
+"""The planner that is compared with it, if it is installed: it plans for each robot as if there were no others."""
+LIBRARIES = {"pybullet": "pybullet", "mujoco": "mujoco"}
+"""Modules without which a plugin does not work, although it is installed."""
+ROBOTS, SEEDS = 9, 3
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -37,7 +43,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Do the run and print where its results are."""
+    """Do the runs, say what they show, and print where the results are."""
     with slots_of_this_process() as slots:
         study = read_study(_configuration())
         print(plugins_line([study]), flush=True)
@@ -64,17 +70,23 @@ def _configuration() -> dict[str, Any]:
     return {
         "name": "demo",
         "world": "office",
-        "scenario": {"plugin": "random", "robots": 5},
+        "roadmap": {"plugin": "lanes", "cell_size": 0.4},
+        "scenario": {"plugin": "random", "robots": ROBOTS},
         **chosen,
-        "dispatcher": "adg",
+        "dispatcher": "all_at_once",
         "export": ["rosbag2"] if _works("format", "rosbag2") else [],
         "recording": {"scans": True},
-        "limits": {"planning": 20.0},
+        "limits": {"planning": 20.0, "execution": 120.0},
+        "matrix": {"planner": _compared(chosen["planner"]), "seed": list(range(SEEDS))},
     }
 
 
+def _compared(planner: str) -> list[str]:
+    return [ALONE, planner] if _works("planner", ALONE) else [planner]
+
+
 def _works(kind: str, name: str) -> bool:
-    return _is_offered(kind, name) and (name != "pybullet" or has("pybullet"))
+    return _is_offered(kind, name) and has(LIBRARIES.get(name, "numpy"))
 
 
 def _is_offered(kind: str, name: str) -> bool:
@@ -83,15 +95,16 @@ def _is_offered(kind: str, name: str) -> bool:
 
 def _why(kind: str, name: str) -> str:
     if _is_offered(kind, name):
-        return "PyBullet has no wheel for this Python or machine"
+        return "its library has no wheel for this Python or machine"
     return remedy(name, group_of(kind)) or "not installed"
 
 
 def _show(results: Results) -> None:
-    record = next(iter(results))
+    records = list(results)
+    print(answer(records))
+    record = next((it for it in records if it["status"] != RunStatus.SUCCEEDED), records[-1])
     paths = results.paths(record["run_id"])
-    if "error" in record:
-        print(f"{record['status']} in {record['error']['stage']}: {record['error']['message']}")
+    print(f"shown      {record['config']['planner']['plugin']}, seed {record['config']['seed']}: {record['status']}")
     print(f"results    {_near(results.folder.path)}")
     if paths.recording.is_file():
         print(f"recording  {_near(paths.recording)}")
@@ -110,6 +123,15 @@ def _show(results: Results) -> None:
     if paths.exports.is_dir():
         for bag in sorted(paths.exports.iterdir()):
             print(f"bag        {_near(bag)}")
+
+
+def answer(records: Sequence[Mapping[str, Any]]) -> str:
+    """Say in one sentence how many runs of each planner arrive."""
+    arrived: dict[str, list[bool]] = {}
+    for record in records:
+        arrived.setdefault(record["config"]["planner"]["plugin"], []).append(record["status"] == RunStatus.SUCCEEDED)
+    parts = [f"with {name} all robots arrive in {sum(runs)} of {len(runs)} runs" for name, runs in arrived.items()]
+    return f"{ROBOTS} robots in the office: {', '.join(parts)}."
 
 
 def _draw(recording: Recording, picture: Path) -> Path:

@@ -22,7 +22,7 @@ assigner: {assigner}
 planner: {planner}
 dispatcher: adg                  # keeps the order in which the plan lets robots pass
 controller: {controller}
-simulator: kinematic             # `none` ends a run after planning; pybullet simulates physics
+simulator: kinematic             # `none` ends a run after planning; mujoco simulates rigid bodies
 
 limits: {{planning: 10 s, execution: 5 min}}
 seed: 0                          # of the random scenario

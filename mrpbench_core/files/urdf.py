@@ -175,18 +175,18 @@ def drive_of(robot: ET.Element, urdf: Urdf) -> DifferentialDrive:
 
 def _frame(joint: ET.Element, above: dict[str, ET.Element], file: Path) -> Float:
     """The pose f8[4,4] of a joint in the frame of the root link."""
-    frame = _origin(joint, file)
+    frame = joint_frame(joint, file)
     while (upper := above.get(_link(joint, "parent"))) is not None:
         joint = upper
         if joint.get("type") != "fixed":
             raise InputError(f"a driven wheel is attached to the joint {joint.get('name')!r}, which moves", file=file)
-        frame = _origin(joint, file) @ frame
+        frame = joint_frame(joint, file) @ frame
     return frame
 
 
-def _origin(joint: ET.Element, file: Path) -> Float:
-    """Return the pose f8[4,4] from fixed-axis roll, pitch and yaw and the offset."""
-    origin = joint.find("origin")
+def joint_frame(element: ET.Element, file: Path) -> Float:
+    """Return the pose f8[4,4] that the `origin` of a joint, a collision or an inertial gives."""
+    origin = element.find("origin")
     roll, pitch, yaw = numbers(origin, "rpy", (0.0, 0.0, 0.0), file).tolist()
     frame = np.eye(4)
     about_x = np.array([[1, 0, 0], [0, math.cos(roll), -math.sin(roll)], [0, math.sin(roll), math.cos(roll)]])

@@ -58,6 +58,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.simulators": ("league",),
         "mrpbench.task_sources": ("lorr",),
     },
+    "mrpbench-simulators-mujoco": {"mrpbench.simulators": ("mujoco",)},
     "mrpbench-simulators-pybullet": {"mrpbench.simulators": ("pybullet",)},
 }
 """Names by entry-point group, by distribution. Of other distributions nothing is known before they are installed."""
@@ -73,6 +74,7 @@ EXTRAS = {
     "mrpbench-bridges-ros2": "ros2",
     "mrpbench-executors-dask": "dask",
     "mrpbench-exporters-rosbag2": "rosbag2",
+    "mrpbench-simulators-mujoco": "mujoco",
     "mrpbench-simulators-pybullet": "pybullet",
 }
 """The extra of the distribution `mrpbench` that installs each; empty: `mrpbench` alone does."""

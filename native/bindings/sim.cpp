@@ -5,6 +5,7 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -75,11 +76,20 @@ void step(Plane& self, const Matrix<2>& twist, const std::optional<Matrix<2>>& m
 }
 
 Output<double> scan(const Caster& self, const Vector<std::int32_t>& robots, const Matrix<3>& pose,
-                    const Matrix<2>& movers, const Vector<double>& radius, const std::optional<Matrix<4>>& leaves) {
+                    const Matrix<2>& movers, const Vector<double>& radius, const std::optional<Matrix<4>>& leaves,
+                    const std::optional<Matrix<4>>& sides, const std::optional<Vector<std::int32_t>>& first) {
   const std::size_t count = pose.shape(0), beams = static_cast<std::size_t>(self.beams());
   require(radius.size() == count + movers.shape(0), "each robot and mover has a radius");
   for (const std::int32_t robot : rows<std::int32_t>(robots)) {
     require(robot >= 0 && static_cast<std::size_t>(robot) < count, "there is no such robot");
+  }
+  Outlines outlines;
+  if (sides && first) {
+    outlines = {rows<Segment>(*sides), rows<std::int32_t>(*first)};
+    require(outlines.first.size() == count + 1 && outlines.first.front() == 0 &&
+                std::ranges::is_sorted(outlines.first) &&
+                static_cast<std::size_t>(outlines.first.back()) == outlines.sides.size(),
+            "`first` gives each robot its part of `sides`");
   }
   std::vector<double> ranges(robots.size() * beams);
   {
@@ -88,7 +98,7 @@ Output<double> scan(const Caster& self, const Vector<std::int32_t>& robots, cons
     for (const Pose& it : rows<Pose>(pose)) centres.push_back({it.x, it.y});
     for (const Point& it : rows<Point>(movers)) centres.push_back(it);
     self.scan(rows<std::int32_t>(robots), rows<Pose>(pose), centres, rows<double>(radius),
-              leaves ? rows<Segment>(*leaves) : std::span<const Segment>{}, ranges);
+              leaves ? rows<Segment>(*leaves) : std::span<const Segment>{}, outlines, ranges);
   }
   return own(std::move(ranges), {robots.size(), beams});
 }
@@ -151,7 +161,8 @@ NB_MODULE(sim, module) {
 
   nb::class_<Caster>(module, "Caster")
       .def("__init__", &construct_caster, nb::kw_only(), "segments"_a, "lidar"_a, "threads"_a = 1)
-      .def("scan", &scan, "robots"_a, "pose"_a, "movers"_a, "radius"_a, "leaves"_a = nb::none());
+      .def("scan", &scan, "robots"_a, "pose"_a, "movers"_a, "radius"_a, "leaves"_a = nb::none(),
+           "sides"_a = nb::none(), "first"_a = nb::none());
 
   nb::class_<Walkers>(module, "Walkers")
       .def("__init__", &construct_walkers, nb::kw_only(), "segments"_a, "people"_a, "options"_a, "orca"_a)

@@ -68,7 +68,7 @@ bool same(double a, double b) {
 
 std::vector<double> scan(const Scene& it, const Lidar& lidar, const std::vector<int>& robots) {
   std::vector<double> ranges(robots.size() * static_cast<std::size_t>(lidar.beams));
-  Caster(it.walls, lidar).scan(robots, it.poses, it.centres, it.radius, {}, ranges);
+  Caster(it.walls, lidar).scan(robots, it.poses, it.centres, it.radius, {}, {}, ranges);
   return ranges;
 }
 

@@ -8,21 +8,22 @@ from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.kinds import GROUPS
 
 
-def test_the_whole_stack_runs_and_leaves_something_to_see(mrpbench, monkeypatch):
-    monkeypatch.setitem(demo.WANTED, "simulator", ("holodeck", "kinematic"))
+def test_the_whole_stack_answers_a_question_and_leaves_something_to_see(mrpbench, monkeypatch):
+    monkeypatch.setitem(demo.WANTED, "simulator", ("holodeck", "planar"))
+    monkeypatch.setattr(demo, "ROBOTS", 5)
+    monkeypatch.setattr(demo, "SEEDS", 1)
     code, output, errors = mrpbench("demo")
     assert (code, errors) == (0, "")
-    assert "simulator holodeck is not available here (not installed); the demo uses kinematic" in output
-    (shard,) = Path("results/demo/runs").iterdir()
-    record = json.loads(shard.read_text())
-    assert record["status"] == "succeeded"
-    assert record["metrics"]["execution.goals_reached"] == 5
-    assert record["metrics"]["execution.robot_contacts"] == 0
-    lines = dict(line.split(maxsplit=1) for line in output.splitlines()[-5:])
+    assert "simulator holodeck is not available here (not installed); the demo uses planar" in output
+    records = [json.loads(line) for shard in Path("results/demo/runs").iterdir() for line in shard.open()]
+    assert sorted(it["config"]["planner"]["plugin"] for it in records) == ["astar", "cbs"]
+    assert demo.answer(records) in output
+    lines = dict(line.split(maxsplit=1) for line in output.splitlines()[-6:])
     assert Path(lines["picture"]).read_bytes().startswith(b"\x89PNG")
     assert any(Path(lines["bag"]).glob("*.mcap"))
     assert Path(lines["recording"]).is_file()
     assert "<canvas" in Path(lines["replay"]).read_text()
+    (record,) = (it for it in records if it["run_id"] in lines["recording"])
 
     code, output, errors = mrpbench("export", f"results/demo:{record['run_id'][:4]}", "--to", "rosbag2", "--out", "bag")
     assert (code, output, errors) == (0, "wrote bag\n", "")
@@ -40,4 +41,14 @@ def test_the_core_alone_says_what_to_install(mrpbench, monkeypatch):
     assert errors.endswith(
         "the demo needs a planner, and none of cbs, prioritized, example is installed"
         " (mrpbench-standard has it: `pip install mrpbench`)\n"
+    )
+
+
+def test_the_answer_counts_the_runs_of_each_planner_that_arrive():
+    records = [
+        {"config": {"planner": {"plugin": name}}, "status": status}
+        for name, status in (("astar", "succeeded"), ("astar", "timeout"), ("cbs", "succeeded"), ("cbs", "succeeded"))
+    ]
+    assert demo.answer(records) == (
+        "9 robots in the office: with astar all robots arrive in 1 of 2 runs, with cbs all robots arrive in 2 of 2 runs."
     )

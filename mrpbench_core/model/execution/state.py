@@ -39,6 +39,8 @@ class State:
     contacts: Int32 = array("i4", 2)
     """i4[k,2]: robot and what it touched during the period: a robot of higher index, -1 = wall, obstacle or door, or
     n + j = mover j."""
+    contact_force: Float | None = None
+    """f8[k]: the normal force of each contact, its mean over the period, N; None if the simulator does not know it."""
     facilities: Mapping[str, float] = attrs.field(factory=dict)
     """Name of each door -> opening 0..1; of each lift -> height of its cabin in metres. Empty if the simulator has
     neither."""

@@ -12,6 +12,13 @@
 
 namespace mrpbench::sim {
 
+/// What lidars see of robots in place of discs: the sides of robot i, in its own frame and solid on their left, are
+/// `sides[first[i]]` to `sides[first[i + 1] - 1]`. All lie within the robot's disc. Without `first`, robots are discs.
+struct Outlines {
+  std::span<const Segment> sides;
+  std::span<const int> first;
+};
+
 struct Lidar {
   int beams = 360;
   double range = 3.5, min_range = 0.12;
@@ -27,7 +34,8 @@ class Caster {
   /// Ranges in metres of the lidars of `scanning`, row by row; infinity = no return. `centres` and `radius` are those
   /// of all discs, of which the first are the robots; none sees itself. `leaves` are solid besides the segments.
   void scan(std::span<const int> scanning, std::span<const Pose> poses, std::span<const Point> centres,
-            std::span<const double> radius, std::span<const Segment> leaves, std::span<double> ranges) const;
+            std::span<const double> radius, std::span<const Segment> leaves, const Outlines& outlines,
+            std::span<double> ranges) const;
 
   int beams() const { return lidar_.beams; }
 
@@ -42,6 +50,7 @@ class Caster {
   };
 
   Wall wall(const Segment& segment) const;
+  std::vector<Wall> placed(const Outlines& outlines, std::span<const Pose> poses) const;
   void see_wall(const Wall& wall, Point origin, Point facing, double* nearness) const;
   void see_disc(Point offset, double radius, Point facing, double* nearness) const;
   Span between(Point right, Point left) const;

@@ -60,11 +60,14 @@ class Caster:
         movers: NDArray[np.float64],
         radius: NDArray[np.float64],
         leaves: NDArray[np.float64] | None = None,
+        sides: NDArray[np.float64] | None = None,
+        first: NDArray[np.int32] | None = None,
     ) -> NDArray[np.float64]:
         """Ranges f8[k,beams] of `robots` i4[k] among all robots at `pose` f8[n,3] and movers at f8[m,2]; inf = none.
 
         `radius` f8[n+m]. A robot does not see itself. A mover at infinity is absent. `leaves` f8[S,4] are
-        solid besides the segments.
+        solid besides the segments. Robot i is its disc, or `sides[first[i]:first[i + 1]]` within it: f8[K,4] in the
+        robot's frame, solid on their left, and i4[n+1].
         """
 
 class Walkers:

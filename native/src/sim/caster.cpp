@@ -63,10 +63,29 @@ Caster::Wall Caster::wall(const Segment& segment) const {
   return {segment.start, along, lidar_.range * lidar_.range * dot(along, along)};
 }
 
+/// The sides of all robots where they stand.
+std::vector<Caster::Wall> Caster::placed(const Outlines& outlines, std::span<const Pose> poses) const {
+  std::vector<Wall> found;
+  for (std::size_t robot = 0; robot + 1 < outlines.first.size(); ++robot) {
+    const Pose& pose = poses[robot];
+    const Point facing{std::cos(pose.yaw), std::sin(pose.yaw)}, centre{pose.x, pose.y};
+    const auto at = [&](Point p) {
+      return centre + Point{facing.x * p.x - facing.y * p.y, facing.y * p.x + facing.x * p.y};
+    };
+    for (int side = outlines.first[robot]; side < outlines.first[robot + 1]; ++side) {
+      const Segment& own = outlines.sides[static_cast<std::size_t>(side)];
+      found.push_back(wall({at(own.start), at(own.end)}));
+    }
+  }
+  return found;
+}
+
 void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, std::span<const Point> centres,
-                  std::span<const double> radius, std::span<const Segment> leaves, std::span<double> ranges) const {
+                  std::span<const double> radius, std::span<const Segment> leaves, const Outlines& outlines,
+                  std::span<double> ranges) const {
   std::vector<Wall> moving;
   for (const Segment& it : leaves) moving.push_back(wall(it));
+  const std::vector<Wall> sides = placed(outlines, poses);
   double largest = 0;
   for (const double it : radius) largest = std::max(largest, it);
   DiscHash hash((lidar_.range + largest) / 2);
@@ -88,7 +107,14 @@ void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, st
     for (const Wall& it : moving) see_wall(it, origin, facing, nearness);
     hash.near(origin, lidar_.range + largest, [&](int disc) {
       const auto at = static_cast<std::size_t>(disc);
-      if (disc != robot) see_disc(centres[at] - origin, radius[at], facing, nearness);
+      if (disc == robot) return;
+      if (at + 1 >= outlines.first.size()) {
+        see_disc(centres[at] - origin, radius[at], facing, nearness);
+        return;
+      }
+      for (int side = outlines.first[at]; side < outlines.first[at + 1]; ++side) {
+        see_wall(sides[static_cast<std::size_t>(side)], origin, facing, nearness);
+      }
     });
     for (std::size_t i = 0; i < beams; ++i) {
       const double distance = 1 / nearness[i];

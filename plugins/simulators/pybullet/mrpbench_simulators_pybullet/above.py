@@ -10,15 +10,15 @@ from itertools import pairwise
 
 import attrs
 import numpy as np
+from mrpbench_simulators_bodies.polygons import row_rectangles, triangulate
+from mrpbench_simulators_bodies.scene import HEIGHT
 
 from mrpbench_core.checking.occupancy import bounds
 from mrpbench_core.model.common.arrays import Bool, Float
-from mrpbench_core.model.common.geometry import inside
 from mrpbench_core.model.worlds.occupancy import Occupancy
 from mrpbench_core.model.worlds.solids import wall_boxes
 from mrpbench_core.model.worlds.world import Level
 from mrpbench_simulators_pybullet.bullet import SEEN, Bullet, Group, quiet
-from mrpbench_simulators_pybullet.walls import HEIGHT
 
 ABOVE = 1.0
 """metres above the highest roof at which rays begin."""
@@ -70,46 +70,12 @@ def roofs(level: Level) -> Float:
     covers = [(box, HEIGHT) for box in boxes]
     covers += [(obstacle.polygon, obstacle.height) for obstacle in level.obstacles]
     if level.occupancy is not None:
-        covers += [(run, HEIGHT) for run in _runs(level.occupancy)]
+        covers += [(run, HEIGHT) for run in row_rectangles(level.occupancy)]
     parts = [np.empty((0, 3, 3))]
     for polygon, height in covers:
         flat = triangulate(np.asarray(polygon))
         parts.append(np.concatenate([flat, np.full((len(flat), 3, 1), height)], axis=2))
     return np.concatenate(parts)
-
-
-def triangulate(polygon: Float) -> Float:
-    """Triangles f8[c-2,3,2] of a simple polygon f8[c,2], by cutting off one ear after the other."""
-    x, y = polygon.T
-    turn = (x * np.roll(y, -1) - y * np.roll(x, -1)).sum()
-    left = polygon.tolist() if turn > 0 else polygon[::-1].tolist()
-    ears = []
-    while len(left) > 3:
-        ear = next((index for index in range(len(left)) if _is_ear(left, index)), 0)
-        ears.append([left[ear - 1], left[ear], left[(ear + 1) % len(left)]])
-        del left[ear]
-    return np.array([*ears, left], float)
-
-
-def _is_ear(corners: list[list[float]], index: int) -> bool:
-    """Tell whether the triangle at a corner lies in the polygon: the corner is convex, and no other is in the way."""
-    before, here, after = corners[index - 1], corners[index], corners[(index + 1) % len(corners)]
-    if (here[0] - before[0]) * (after[1] - before[1]) - (here[1] - before[1]) * (after[0] - before[0]) <= 0:
-        return False
-    others = [corner for corner in corners if corner not in (before, here, after)]
-    return not others or not inside(np.array([before, here, after]), np.array(others)).any()
-
-
-def _runs(occupancy: Occupancy) -> list[Float]:
-    """Rectangles f8[4,2] over the blocked cells of each row."""
-    found = []
-    size, origin = occupancy.cell_size, np.asarray(occupancy.origin)
-    for row, blocked in enumerate(occupancy.blocked):
-        ends = np.flatnonzero(np.diff(np.concatenate([[0], blocked.astype(np.int8), [0]])))
-        for first, last in ends.reshape(-1, 2).tolist():
-            corners = np.array([(first, row), (last, row), (last, row + 1), (first, row + 1)], float)
-            found.append(origin + size * corners)
-    return found
 
 
 def _build(bullet: Bullet, triangles: Float) -> None:

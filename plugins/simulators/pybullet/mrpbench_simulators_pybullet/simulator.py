@@ -11,6 +11,8 @@ from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.worlds.world import World
 
+_TIMESTEP = {"wheels": 1 / 240, "body": 1 / 60}
+
 
 @attrs.frozen(kw_only=True)
 class PyBullet(Simulator):
@@ -50,10 +52,23 @@ class PyBullet(Simulator):
         """Place the robots; nothing here is random.
 
         Raises:
-            InputError: PyBullet is not installed.
+            InputError: PyBullet is not installed, or the URDF of a robot is wrong.
         """
         del seed
-        from mrpbench_simulators_pybullet.simulation import BulletSimulation, PhysicsOptions
+        from mrpbench_simulators_bodies.simulation import BodySimulation
 
-        options = PhysicsOptions(timestep=self.timestep, iterations=self.iterations, model=self.model, lidar=self.lidar)
-        return BulletSimulation(options, world, fleet, placements, period, movers, levels)
+        from mrpbench_simulators_pybullet.engine import BulletEngine
+        from mrpbench_simulators_pybullet.simulation import RayTestSimulation
+
+        kind = BodySimulation if self.lidar == "native" else RayTestSimulation
+        return kind(
+            lambda scene: BulletEngine(scene, self.iterations),
+            self.timestep or _TIMESTEP[self.model],
+            self.model == "body",
+            world,
+            fleet,
+            placements,
+            period,
+            movers,
+            levels,
+        )

@@ -1,12 +1,11 @@
 """Everything solid as static triangle meshes; one concave mesh is several times faster than many boxes."""
 
 import numpy as np
+from mrpbench_simulators_bodies.scene import HEIGHT
 
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_simulators_pybullet.bullet import Bullet, Group
 
-HEIGHT = 2.5
-"""metres: the height to which RMF's generator of Gazebo worlds builds walls, which is above every lidar."""
 _SEGMENTS = 10_000
 """Per mesh; Bullet's shared memory holds about three times as many."""
 

@@ -98,8 +98,8 @@ def test_bodies_that_jostle_stay_in_the_plane():
                 command = random.uniform([-0.2, -2.0], [0.22, 2.0], (9, 2))
             state = simulation.step(Inputs(twist=command))
             touched += len(state.contacts)
-            for body in simulation._robots.bodies:
-                (x, y, z), (qx, qy, _, _) = simulation._bullet.getBasePositionAndOrientation(body)
+            for body in simulation.engine.bodies:
+                (x, y, z), (qx, qy, _, _) = simulation.engine.bullet.getBasePositionAndOrientation(body)
                 assert abs(z) < 1e-3
                 assert abs(qx) + abs(qy) < 1e-3
                 assert 0 < x < 2
@@ -168,10 +168,10 @@ def test_large_worlds_are_several_meshes_that_act_as_one(monkeypatch):
     assert whole[-1].contacts.tolist() == parts[-1].contacts.tolist() == [[0, -1]]
 
 
-def test_robots_see_each_other_as_discs():
-    _, scans = run(PyBullet(lidar="pybullet"), EMPTY, (BURGER,) * 2, [[0, 0, 0], [1, 0, 2]], np.zeros((2, 2)), 0)
-    assert scans[0].ranges[0, 0] == pytest.approx(1 + 0.032 - BURGER.radius, abs=0.005)
-    assert np.isfinite(scans[0].ranges[0]).mean() == pytest.approx(math.asin(BURGER.radius / 1.032) / math.pi, abs=0.01)
+def test_robots_see_the_outlines_of_each_other():
+    _, scans = run(PyBullet(lidar="pybullet"), EMPTY, (BURGER,) * 2, [[0, 0, 0], [1, 0, math.pi]], np.zeros((2, 2)), 0)
+    assert scans[0].ranges[0, 0] == pytest.approx(1 + 0.032 - 0.038, abs=0.002)
+    assert np.isfinite(scans[0].ranges[0]).mean() == pytest.approx(math.atan(0.089 / 1.0) / math.pi, abs=0.01)
 
 
 def test_more_beams_than_one_call_can_take():

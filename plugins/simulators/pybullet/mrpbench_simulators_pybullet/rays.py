@@ -1,16 +1,11 @@
-"""Lidars: by Bullet's ray tests, or by the native caster, which is about a hundred times as fast.
-
-Lidars see vertical walls, and each robot as the disc of its circumscribed radius, which planners use too, at any height
-of the sensor. So both give the same ranges.
-"""
+"""Lidars by Bullet's ray tests, which take a hundred times as long as the native caster, to check it."""
 
 from collections.abc import Sequence
 
 import numpy as np
-from mrpbench_native.sim import Caster
 
 from mrpbench_core.model.common.arrays import Float
-from mrpbench_core.model.common.fleet import Fleet, Lidar
+from mrpbench_core.model.common.fleet import Lidar
 from mrpbench_core.model.execution.movers import MoverDiscs
 from mrpbench_core.model.worlds.solids import polygon_outline
 from mrpbench_simulators_pybullet.bullet import SEEN, Bullet, Group
@@ -29,26 +24,32 @@ _UPRIGHT = (0.0, 0.0, 0.0, 1.0)
 class RayTests:
     """Takes the scans of a fleet among the bodies of a Bullet world.
 
-    Robots are discs that nothing can touch. They are placed just before a scan, and the disc of the scanning robot is
-    moved away. They are prisms of triangles, since a ray test of a Bullet cylinder takes several times as long.
+    Robots are their outlines at the height of the lidar, raised, which nothing can touch. They are placed just before a
+    scan, and that of the scanning robot is moved away. They are triangles, since a ray test of a Bullet cylinder takes
+    several times as long.
     """
 
-    def __init__(self, bullet: Bullet, fleet: Fleet) -> None:
+    def __init__(self, bullet: Bullet, outlines: dict[Lidar, list[Float]]) -> None:
         self._bullet = bullet
-        self._discs = [self._disc(robot.radius) for robot in fleet.robots]
+        self._robots = {
+            lidar: [self._silhouette(sides) for sides in of_robots] for lidar, of_robots in outlines.items()
+        }
         self._movers: list[int] = []
         self._mover_radius: Float = np.empty(0)
 
     def scan(self, lidar: Lidar, robots: Sequence[int], pose: Float, movers: MoverDiscs) -> Float:
         """Ranges f8[k,beams] of `robots`, while all stand at `pose` f8[n,3]; inf = no return."""
         self._place_movers(movers)
-        for disc, (x, y, _) in zip(self._discs, pose.tolist(), strict=True):
-            self._place(disc, (x, y, 0.0))
+        shown = self._robots[lidar]
+        for robot, body in enumerate(shown):
+            self._place(body, pose[robot])
         ranges = np.empty((len(robots), lidar.beams))
         for row, robot in enumerate(robots):
-            self._place(self._discs[robot], _AWAY)
+            self._hide(shown[robot])
             ranges[row] = self._cast(lidar, pose[robot])
-            self._place(self._discs[robot], (pose[robot, 0], pose[robot, 1], 0.0))
+            self._place(shown[robot], pose[robot])
+        for body in shown:  # lidars at other heights do not see them
+            self._hide(body)
         ranges[(ranges < lidar.min_range) | (ranges > lidar.range)] = np.inf
         return ranges
 
@@ -73,29 +74,24 @@ class RayTests:
             for disc in self._movers:
                 self._bullet.removeBody(disc)
             self._mover_radius = movers.seen_radius
-            self._movers = [self._disc(radius) for radius in movers.seen_radius.tolist()]
-        for disc, (x, y) in zip(self._movers, movers.seen.tolist(), strict=True):
-            self._place(disc, (x, y, 0.0) if np.isfinite(x) else _AWAY)
+            discs = (polygon_outline(radius * _CIRCLE) for radius in movers.seen_radius.tolist())
+            self._movers = [body for sides in discs if (body := self._silhouette(sides)) is not None]
+        for body, (x, y) in zip(self._movers, movers.seen.tolist(), strict=True):
+            if np.isfinite(x):
+                self._place(body, np.array([x, y, 0.0]))
+            else:
+                self._hide(body)
 
-    def _disc(self, radius: float) -> int:
-        mesh = build_mesh(self._bullet, polygon_outline(radius * _CIRCLE))
-        return self._bullet.body(Group.SILHOUETTES, mesh, _AWAY)
+    def _silhouette(self, sides: Float) -> int | None:
+        """A body that only rays hit; None if there is nothing to see."""
+        return self._bullet.body(Group.SILHOUETTES, build_mesh(self._bullet, sides), _AWAY) if len(sides) else None
 
-    def _place(self, disc: int, position: tuple[float, float, float]) -> None:
-        self._bullet.resetBasePositionAndOrientation(disc, position, _UPRIGHT)
+    def _place(self, body: int | None, pose: Float) -> None:
+        x, y, yaw = pose.tolist()
+        if body is not None:
+            turn = (0.0, 0.0, np.sin(yaw / 2), np.cos(yaw / 2))
+            self._bullet.resetBasePositionAndOrientation(body, (x, y, 0.0), turn)
 
-
-class Casters:
-    """Takes the scans of a fleet among segments and discs, in C++."""
-
-    def __init__(self, lidars: Sequence[Lidar], segments: Float) -> None:
-        self._casters = {lidar: Caster(segments=segments, lidar=lidar) for lidar in lidars}
-
-    def scan(
-        self, lidar: Lidar, robots: Sequence[int], pose: Float, seen: Float, radius: Float, leaves: Float
-    ) -> Float:
-        """Ranges f8[k,beams] of `robots`, while all stand at `pose` f8[n,3] and leaves at f8[S,4].
-
-        `seen` f8[m,2] are the discs of movers, and `radius` f8[n+m] the radii of robots and those.
-        """
-        return self._casters[lidar].scan(np.array(robots, np.int32), pose, seen, radius, leaves)
+    def _hide(self, body: int | None) -> None:
+        if body is not None:
+            self._bullet.resetBasePositionAndOrientation(body, _AWAY, _UPRIGHT)

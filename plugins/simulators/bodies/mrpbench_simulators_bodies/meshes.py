@@ -1,7 +1,4 @@
-"""Collision meshes as files that PyBullet reads.
-
-PyBullet leaves out meshes that it cannot read, such as an STL of text, makes others a point, and crashes on some.
-"""
+"""Collision meshes as the points of convex solids."""
 
 import re
 from pathlib import Path
@@ -10,35 +7,28 @@ import numpy as np
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Float
-from mrpbench_simulators_pybullet.collada import collada_points
+from mrpbench_simulators_bodies.collada import collada_points
 
 _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute", "<u2")])
 _HEADER = 80
 _NUMBERS = rb"\s+(\S+)\s+(\S+)\s+(\S+)"
 
 
-def readable_mesh(mesh: Path, folder: Path) -> Path:
-    """Return a file that PyBullet reads: an .obj, or what this function writes to `folder`.
-
-    PyBullet takes the convex hull of the points of a mesh, or of each object of an .obj.
+def mesh_objects(mesh: Path) -> list[Float]:
+    """Return the corners f8[k,3] of the faces of a mesh: of the whole mesh, or of each object of an .obj.
 
     Raises:
         InputError: it has no faces, or is damaged.
     """
     kind = mesh.suffix.lower()
     if kind == ".obj":
-        _check_obj(mesh)
-        return mesh
+        return _obj_objects(mesh)
     if kind not in (".stl", ".dae"):
-        raise InputError("PyBullet cannot read this mesh", file=mesh, hint="meshes must be .obj, .stl or .dae")
+        raise InputError("this mesh cannot be read", file=mesh, hint="meshes must be .obj, .stl or .dae")
     points = _stl_points(mesh) if kind == ".stl" else collada_points(mesh)
     if not len(points):
         raise InputError("has no triangles", file=mesh)
-    triangles = np.zeros(-(-len(points) // 3), _TRIANGLE)
-    triangles["corners"] = np.resize(points, (len(triangles), 3, 3))
-    file = folder / f"{len(list(folder.iterdir()))}.stl"
-    file.write_bytes(bytes(_HEADER) + len(triangles).to_bytes(4, "little") + triangles.tobytes())
-    return file
+    return [points]
 
 
 def _stl_points(mesh: Path) -> Float:
@@ -53,16 +43,26 @@ def _stl_points(mesh: Path) -> Float:
     return _points(rb"\bvertex", content, mesh)
 
 
-def _check_obj(mesh: Path) -> None:
+def _obj_objects(mesh: Path) -> list[Float]:
     content = _content(mesh)
-    count = len(_points(rb"^\s*v", content, mesh))
-    faces = re.findall(rb"^\s*f\s+(.*)$", content, re.MULTILINE)
-    corners = [corner.partition(b"/")[0] for face in faces for corner in face.split()]
-    if not corners:
+    points = _points(rb"^\s*v", content, mesh)
+    objects, defined = [], 0
+    for part in re.split(rb"^\s*o\b.*$", content, flags=re.MULTILINE):
+        faces = re.findall(rb"^\s*f\s+(.*)$", part, re.MULTILINE)
+        defined += len(re.findall(rb"^\s*v\s", part, re.MULTILINE))
+        corners = {corner.partition(b"/")[0] for face in faces for corner in face.split()}
+        if corners:
+            objects.append(points[sorted(_obj_index(corner, len(points), defined, mesh) for corner in corners)])
+    if not objects:
         raise InputError("has no faces", file=mesh)
-    for corner in set(corners):
-        if not re.fullmatch(rb"-?\d{1,9}", corner) or not 1 <= abs(int(corner)) <= count:
-            raise InputError(f"a face has the vertex {corner.decode(errors='replace')!r} of {count}", file=mesh)
+    return objects
+
+
+def _obj_index(corner: bytes, count: int, defined: int, mesh: Path) -> int:
+    """The index of a vertex of a face: from 1, or negative from the last that is defined so far."""
+    if not re.fullmatch(rb"-?\d{1,9}", corner) or not 1 <= abs(int(corner)) <= count:
+        raise InputError(f"a face has the vertex {corner.decode(errors='replace')!r} of {count}", file=mesh)
+    return int(corner) - 1 if int(corner) > 0 else defined + int(corner)
 
 
 def _points(keyword: bytes, content: bytes, mesh: Path) -> Float:

@@ -1,4 +1,4 @@
-"""Checks what a URDF says of its links, for PyBullet takes many mistakes for other values, or crashes."""
+"""Checks what a URDF says of its links."""
 
 import xml.etree.ElementTree as ET
 from collections.abc import Collection
