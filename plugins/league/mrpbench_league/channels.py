@@ -97,7 +97,9 @@ def _events(output: LorrOutput, seconds: float) -> Chunk:
             if task >= 0:
                 rows.append((time, ORDER["assigned"], task, "assigned", robot, -1))
             before = task
-    rows.sort(key=lambda row: row[:3])
+    # An assignment of 2024 is in force for the errands of its step, one of 2026 for those after its tick.
+    first = ("withdrawn", "assigned") if output.season == 2024 else ()
+    rows.sort(key=lambda row: (row[0], row[3] not in first, *row[1:3]))
     return {
         "task_time": np.array([row[0] for row in rows]) * seconds,
         "task_index": np.array([row[2] for row in rows], np.int32),
