@@ -15,7 +15,9 @@ def test_the_whole_stack_answers_a_question_and_leaves_something_to_see(mrpbench
     code, output, errors = mrpbench("demo")
     assert (code, errors) == (0, "")
     assert "simulator holodeck is not available here (not installed); the demo uses planar" in output
-    records = [json.loads(line) for shard in Path("results/demo/runs").iterdir() for line in shard.open()]
+    records = [
+        json.loads(line) for shard in Path("results/demo/runs").iterdir() for line in shard.read_text().splitlines()
+    ]
     assert sorted(it["config"]["planner"]["plugin"] for it in records) == ["astar", "cbs"]
     assert demo.answer(records) in output
     lines = dict(line.split(maxsplit=1) for line in output.splitlines()[-6:])
@@ -49,6 +51,5 @@ def test_the_answer_counts_the_runs_of_each_planner_that_arrive():
         {"config": {"planner": {"plugin": name}}, "status": status}
         for name, status in (("astar", "succeeded"), ("astar", "timeout"), ("cbs", "succeeded"), ("cbs", "succeeded"))
     ]
-    assert demo.answer(records) == (
-        "9 robots in the office: with astar all robots arrive in 1 of 2 runs, with cbs all robots arrive in 2 of 2 runs."
-    )
+    answer = demo.answer(records)
+    assert "with astar all robots arrive in 1 of 2 runs, with cbs all robots arrive in 2 of 2 runs" in answer

@@ -55,7 +55,7 @@ class Wheels(Drive):
         if self._reached:
             return
         gap = self._command - self._target
-        changed = gap.any(axis=1).nonzero()[0]
+        changed = np.flatnonzero(gap.any(axis=1))
         self._reached = not len(changed)
         if self._reached:
             return

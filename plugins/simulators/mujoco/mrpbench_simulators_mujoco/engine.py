@@ -85,7 +85,8 @@ class MuJoCoEngine(Engine):
 
     def velocities(self) -> Float:
         """f8[n,3] of bodies in the plane: m/s along x and y, rad/s."""
-        return self._velocities.copy()
+        velocity: Float = self._velocities.copy()
+        return velocity
 
     def weight(self) -> float:
         """Newton with which all robots press on the floor."""
@@ -120,9 +121,9 @@ class MuJoCoEngine(Engine):
     def place_movers(self, place: Float) -> None:
         """Put movers at f8[m,2]."""
         if len(self._movers):
-            here = np.isfinite(place).all(axis=1)
             upright = np.column_stack([place, np.full(len(place), MOVER_HEIGHT / 2)])
-            self._data.mocap_pos[self._movers] = np.where(here[:, None], upright, (0.0, 0.0, BURIED))
+            here = np.isfinite(upright).all(axis=1, keepdims=True)
+            self._data.mocap_pos[self._movers] = np.where(here, upright, (0.0, 0.0, BURIED))
 
     def close(self) -> None:
         """Nothing is held outside of Python."""

