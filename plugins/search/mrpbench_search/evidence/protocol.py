@@ -22,7 +22,8 @@ class Protocol:
     allows: tuple[str, ...]
     """All blocks that it may give."""
     metrics: tuple[str, ...]
-    """Columns that are judged over all settings together: the same on each machine, so that no load of it is taken for a change."""
+    """Columns that are judged, over all settings together. They are the same on each machine, so that no load of it is
+    taken for a change."""
     settings: tuple[str, ...]
     """Options by which a second table divides the runs."""
 

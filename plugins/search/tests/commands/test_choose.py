@@ -59,7 +59,7 @@ def test_shards_of_a_step_are_merged_by_copying(room):
 def test_a_shard_alone_says_what_it_lacks(room):
     code, output, _ = room("choose", "room.yaml", "--shard", "0/2")
     assert code == 1
-    assert "of other shards are not in results/room" in output
+    assert "of other shards are not in" in output
 
 
 @pytest.mark.parametrize(
