@@ -53,8 +53,9 @@ def run(arguments: argparse.Namespace) -> int:
     if not arguments.second:
         sys.stderr.write(f"compare it by `mrpbench compare A {out} --metrics {judged} --markdown`\n")
         return 0
-    comparisons = compare_folders(*found, protocol.metrics, ()).comparisons
-    parts = compare_folders(*found, protocol.metrics, protocol.settings).comparisons
+    first, second = found
+    comparisons = compare_folders(first, second, protocol.metrics, ()).comparisons
+    parts = compare_folders(first, second, protocol.metrics, protocol.settings).comparisons
     if arguments.json:
         rows = {"comparisons": pairs_of(comparisons), "settings": pairs_of(parts)}
         print_json({"protocol": protocol.name} | rows)
