@@ -96,10 +96,11 @@ def test_no_distribution_replaces_a_command_of_the_core(mrpbench, install):
     assert "\ncommand 'plugins' of thief 1.0 is not used: mrpbench-core has a command of this name\n" in output
 
 
-@pytest.mark.parametrize("name", ["publish", "verify", "site", "analyze"])
+@pytest.mark.parametrize("name", ["publish", "verify", "site", "analyze", "choose", "saturate"])
 def test_a_command_of_a_distribution_that_is_not_installed_names_it(mrpbench, monkeypatch, name):
     monkeypatch.setattr(metadata, "entry_points", lambda **_: ())
-    owner = "mrpbench-analysis" if name == "analyze" else "mrpbench-publish"
+    owners = {"analyze": "analysis", "choose": "search", "saturate": "search"}
+    owner = f"mrpbench-{owners.get(name, 'publish')}"
     said = f"no command is called {name!r} ({owner} has it: `pip install mrpbench`)\n"
     assert mrpbench(name, "x") == (2, "", said)
     assert f"\n  {name} " not in mrpbench("--help")[1]

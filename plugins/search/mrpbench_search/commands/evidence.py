@@ -53,9 +53,12 @@ def run(arguments: argparse.Namespace) -> int:
     if not arguments.second:
         sys.stderr.write(f"compare it by `mrpbench compare A {out} --metrics {judged} --markdown`\n")
         return 0
-    comparisons = compare_folders(*found, list(protocol.metrics), None).comparisons
+    first, second = found
+    comparisons = compare_folders(first, second, protocol.metrics, ()).comparisons
+    parts = compare_folders(first, second, protocol.metrics, protocol.settings).comparisons
     if arguments.json:
-        print_json({"protocol": protocol.name, "comparisons": pairs_of(comparisons)})
+        rows = {"comparisons": pairs_of(comparisons), "settings": pairs_of(parts)}
+        print_json({"protocol": protocol.name} | rows)
     else:
-        print(markdown([changes_table(comparisons)]), end="")
+        print(markdown([changes_table(comparisons), changes_table(parts)]), end="")
     return int(any(entry.verdict == "worse" for entry in comparisons))

@@ -22,7 +22,10 @@ class Protocol:
     allows: tuple[str, ...]
     """All blocks that it may give."""
     metrics: tuple[str, ...]
-    """Columns that are judged: the same on each machine, so that no load of it is taken for a change."""
+    """Columns that are judged, over all settings together. They are the same on each machine, so that no load of it is
+    taken for a change."""
+    settings: tuple[str, ...]
+    """Options by which a second table divides the runs."""
 
     def study(self, file: Path | str) -> dict[str, Any]:
         """Return the study of a candidate, as plain data; its paths are relative to the working directory.
@@ -58,12 +61,14 @@ PROTOCOLS = {
                 "execution.wall_contacts",
                 "execution.distance_m",
             ),
+            settings=("world", "scenario.robots", "crowds"),
         ),
         Protocol(
             name="planners-1",
             needs="planner",
             allows=("planner",),
             metrics=("succeeded", "planning.sum_of_costs", "planning.makespan"),
+            settings=("world", "scenario.robots"),
         ),
     )
 }

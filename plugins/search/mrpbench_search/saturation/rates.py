@@ -13,7 +13,6 @@ import attrs
 import numpy as np
 from scipy.stats import t as student
 
-from mrpbench_analysis.student import quantile
 from mrpbench_core.report.statistics.estimate import LEVEL
 
 TOLERANCE = 0.05
