@@ -20,8 +20,10 @@ bool ProgressChecker::is_stuck(std::size_t robot, const Pose& pose, bool under_w
   it.was_under_way = under_way;
   it.before = pose;
   const double dx = pose.x - it.place.x, dy = pose.y - it.place.y;
-  const bool moved =
-      dx * dx + dy * dy > radius * radius || angle_between(pose.yaw, it.place.yaw) > rules_.required_movement_angle);
+  bool moved = dx * dx + dy * dy > radius * radius;
+  if (!moved && std::isfinite(rules_.required_movement_angle)) {
+    moved = angle_between(pose.yaw, it.place.yaw) > rules_.required_movement_angle;
+  }
   if (speed < slow_) it.since += (now_ - before_) * (1 - std::min(1.0, speed * allowance / (2 * radius)));
   const bool stuck = under_way && !moved && now_ - it.since > allowance;
   if (under_way && (moved || stuck)) it.place = pose, it.since = now_;
