@@ -28,7 +28,10 @@ WAREHOUSE = {"plugin": "generated_warehouse", "shelf_rows": 8, "shelf_columns": 
 CROWDED = {"world": WAREHOUSE, "roadmap": "grid", "scenario": {"plugin": "random", "robots": 30}}
 STOP = {"plugin": "waypoints", "waypoints": "stop"}
 TASKS = {"plugin": "poisson", "rate": 0.2}
-FAULTS = [{"kind": "stop", "robot": 0, "at": 4.0, "lasts": 6.0}, {"kind": "silent", "robot": 1, "at": 5.0, "lasts": 4.0}]
+FAULTS = [
+    {"kind": "stop", "robot": 0, "at": 4.0, "lasts": 6.0},
+    {"kind": "silent", "robot": 1, "at": 5.0, "lasts": 4.0},
+]
 CASES: dict[str, dict[str, Any]] = {
     "pure_pursuit": {},
     "planar": {"simulator": "planar"},
@@ -51,7 +54,11 @@ CASES: dict[str, dict[str, Any]] = {
     "stop": {"navigator": STOP},
     "stop_crowded": CROWDED | {"navigator": STOP},
     "turn_ahead": CROWDED | {"navigator": {"plugin": "waypoints", "turn_ahead": True}},
-    "release": {"navigator": {"plugin": "waypoints", "path_end": "release"}, "simulator": "planar", "controller": "dwb"},
+    "release": {
+        "navigator": {"plugin": "waypoints", "path_end": "release"},
+        "simulator": "planar",
+        "controller": "dwb",
+    },
     "release_crowded": CROWDED | {"navigator": {"plugin": "waypoints", "path_end": "release"}},
     "planner_tolerance": CROWDED
     | {
@@ -61,7 +68,8 @@ CASES: dict[str, dict[str, Any]] = {
         "limits": {"execution": 10.0},
     },
     "stopped_checker": {"navigator": {"plugin": "waypoints", "goal_checker": "StoppedGoalChecker"}},
-    "impatient": CROWDED | {"navigator": {"plugin": "waypoints", "movement_time_allowance": 1.5}, "simulator": "planar"},
+    "impatient": CROWDED
+    | {"navigator": {"plugin": "waypoints", "movement_time_allowance": 1.5}, "simulator": "planar"},
     "impatient_dwb": {
         "navigator": {"plugin": "waypoints", "movement_time_allowance": 1.0, "failure_tolerance": 0.0},
         "simulator": "planar",
@@ -120,9 +128,7 @@ def differences(one: Path, other: Path) -> list[str]:
     """Return the channels that differ in two recordings, or are missing in one."""
     with zipfile.ZipFile(one) as first, zipfile.ZipFile(other) as second:
         members = sorted({*first.namelist(), *second.namelist()})
-        contents = [
-            {name: file.read(name) for name in members if name in file.namelist()} for file in (first, second)
-        ]
+        contents = [{name: file.read(name) for name in members if name in file.namelist()} for file in (first, second)]
     return [name for name in members if contents[0].get(name) != contents[1].get(name)]
 
 

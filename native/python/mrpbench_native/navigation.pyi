@@ -49,11 +49,13 @@ class Navigation:
     @property
     def state(self) -> dict[str, NDArray[Any]]:
         """Read-only views: `reached` and `cleared` i4[n], `foot` f8[n,2], `begin` and `end` i8[n], `yaw` and `speed`
-        f8[n], and `under_way`, `following` and `stuck` u1[n]."""
+        f8[n], and `under_way`, `following` and `stuck` u1[n].
+        """
     @property
     def rows(self) -> dict[str, NDArray[Any]]:
         """Read-only views of n rows, of which `survey` writes the first: `robot`, `begin` and `end` i8, `pose` f8[n,3],
-        `twist` and `foot` f8[n,2], `yaw` and `speed` f8."""
+        `twist` and `foot` f8[n,2], `yaw` and `speed` f8.
+        """
 
 class ProgressChecker:
     """Whether robots make progress; `Navigation` has one."""

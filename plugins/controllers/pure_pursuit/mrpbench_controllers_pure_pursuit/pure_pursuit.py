@@ -11,13 +11,14 @@ from collections.abc import Sequence
 import attrs
 import numpy as np
 from attrs.validators import ge, gt, optional
+from mrpbench_native.navigation import PurePursuit as NativePurePursuit
 
 from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, option
 from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.execution.observation import Observations
 from mrpbench_core.model.worlds.world import World
-from mrpbench_native.navigation import PurePursuit as NativePurePursuit
+
 
 @attrs.frozen(kw_only=True)
 class PurePursuit(Controller):

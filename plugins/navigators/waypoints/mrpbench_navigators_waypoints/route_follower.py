@@ -5,10 +5,10 @@ from typing import Any
 
 import attrs
 import numpy as np
+from mrpbench_native.navigation import Navigation
 
 from mrpbench_core.model.common.arrays import Bool, Byte, Float, Int, Int16, Int32, read_only
 from mrpbench_core.model.execution.route import Route, Routes
-from mrpbench_native.navigation import Navigation
 from mrpbench_navigators_waypoints.route_tables import SLACK, ArrivalRules, RouteTables
 
 _NO_LIMITS: Float = np.zeros(0)
@@ -98,8 +98,8 @@ class RouteFollower:
         """f8[n,2]: the nearest point of each robot's leg of its route."""
         self.under_way: Byte = state["under_way"]
         """u1[n]: robots that have to drive on, or to take a yaw; a robot in a lift has not."""
-        self.following: Byte = state["following"]
-        """u1[n]: robots that a controller has to drive."""
+        self.following: Bool = state["following"].view(bool)
+        """bool[n]: robots that a controller has to drive."""
         self._counts, self._stuck = (state["reached"], state["cleared"]), state["stuck"].view(bool)
         self.adopt(routes)
 
