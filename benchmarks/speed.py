@@ -1,8 +1,8 @@
 """Compare the speed of executions with that of an older commit, in one run on one machine.
 
 The commit is checked out and installed beside this one, in `build/speed/`, and `full_stack.py` of both runs in
-turns, once in each round. The table has, for each row, the ratio of this version's simulated seconds per CPU second to those
-of the other one: the median of the rounds, the least and the greatest. The first line is the speed of the machine
+turns, once in each round. The table has, for each row, the ratio of this version's simulated seconds per CPU second to
+those of the other one: the median of the rounds, the least and the greatest. The first line is the speed of the machine
 itself, by a fixed program of integer arithmetic.
 """
 
