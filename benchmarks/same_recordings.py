@@ -101,7 +101,7 @@ CASES: dict[str, dict[str, Any]] = {
     "windows": CROWDED | {"replanning": {"period": 2.0, "window": 5.0}},
     "faults": CROWDED | {"faults": {"events": FAULTS, "reaction": "replan"}},
     "tasks": {"tasks": TASKS, "assigner": "greedy"},
-    "doors": {"world": "hospital"},
+    "doors": {"world": "hospital", "roadmap": "graph"},
     "people": {
         "simulator": "planar",
         "controller": "dwb",
