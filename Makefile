@@ -24,8 +24,8 @@ else
 endif
 	@touch $@
 
-speed: install ## measure the speed of executions, and the share of each part
-	$(BIN)/python benchmarks/full_stack.py
+speed: install ## measure the speed of executions, and the share of each part; BASE=commit for ratios to that commit
+	$(BIN)/python $(if $(BASE),benchmarks/speed.py $(BASE),benchmarks/full_stack.py) $(ARGS)
 
 anchors: install ## compare cbs, ecbs and eecbs with the reference solvers; ARGS="--maps maze-32-32-2" for less
 	$(BIN)/python benchmarks/anchors.py --shared ../shared/data $(ARGS)

@@ -1,9 +1,8 @@
 """The navigator `waypoints`: how robots follow the released parts of their paths.
 
 From the top down: `waypoints` has the options, and `session` is one control period. It asks `route_follower` how far
-robots are (`route_progress` counts on `route_tables`, `route_checks` are the conditions), `controller_server` for
-commands, `progress_checker` which robots are stuck, `detours` for ways around, and `recovery_manager` for the
-`recoveries`.
+robots are, where they go next, and which are stuck (in C++, on `route_tables`), `controller_server` for commands,
+`detours` for ways around, and `recovery_manager` for the `recoveries`.
 """
 
 from mrpbench_navigators_waypoints.recoveries import BackUp, Clear, Spin, Wait

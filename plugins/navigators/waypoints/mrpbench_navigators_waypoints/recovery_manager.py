@@ -53,8 +53,8 @@ class RecoveryManager:
         self._next = [0] * len(robots)
         self._attempts = [0] * len(robots)
         self._reached = [0] * len(robots)
-        self.recovering: Bool = np.zeros(len(robots), bool)
-        self.aborted: Bool = np.zeros(len(robots), bool)
+        self.recovering: Bool = follower.activities.recovering
+        self.aborted: Bool = follower.activities.aborted
         self._some_aborted = False
 
     def __bool__(self) -> bool:

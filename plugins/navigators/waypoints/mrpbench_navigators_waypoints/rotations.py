@@ -69,7 +69,7 @@ class Rotations:
         """f8[g]: greatest progress of each group: robots that are ready, and the share that the last one has driven."""
         self._since: Float = np.zeros(0)
         """f8[g]: simulated second of that progress."""
-        self.rotating: Bool = np.zeros(len(robots), bool)
+        self.rotating: Bool = follower.activities.rotating
         """bool[n]: robots that are commanded here and not by their controllers."""
         self._nobody: Bool = np.zeros(len(robots), bool)
 
@@ -85,8 +85,8 @@ class Rotations:
         if orders.in_step:
             self.rotating[:] = False
             reached, released = self._follower.reached[self._robots], orders.released[self._robots]
-            self.rotating[self._robots[(reached == self._segments) & (released > self._segments)]] = True
-            self.rotating[self._follower.only_turn()] = False
+            robots = self._robots[(reached == self._segments) & (released > self._segments)]
+            self.rotating[[robot for robot in robots.tolist() if not self._follower.only_turns(robot)]] = True
 
     def _take(self, now: float, in_step: tuple[Group, ...]) -> None:
         ready = {

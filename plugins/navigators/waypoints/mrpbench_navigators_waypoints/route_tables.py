@@ -1,18 +1,26 @@
 """The routes of a fleet as robots drive them: without waits, and with all that stays the same on the way in tables."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import attrs
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.execution.route import Route, Routes, last_moves
-from mrpbench_navigators_waypoints.route_checks import SLACK, ClearanceCheck, CornerCheck, Legs, WaypointCheck
 
+SLACK = 1e-6
+"""metres."""
 BACK = 2.4
 """Radians; a path that turns by more leads back along itself, as where a robot makes room for another one."""
 STRAIGHT = 0.3
 """radians: a corner at which the direction changes by less is no bend."""
+
+
+_TABLES = (
+    *("first", "last", "goal", "first_corner", "last_corner", "corner", "level", "speed", "yaw", "waiting_yaw"),
+    *("is_wait", "arrival", "corners", "legs", "rounding", "clearing", "distance", "is_short", "lift"),
+)
 
 
 @attrs.frozen(kw_only=True)
@@ -83,12 +91,9 @@ class RouteTables:
         enters_lift[row[:-1][~same_level[1:] & ~begins[1:]]] = True
         heading = self._add_legs(np.repeat(clearances, self.last_corner + 1), enters_lift)
         self.arrival = self._arrival(waypoint, row, heading, rules)
-        """W entries: when each waypoint is reached. The goal, and a wait before the first corner, are
+        """f8[W,6] x, y, tolerance, direction of the way there (NaN: passing does not count) and tolerance of passing:
+        when each waypoint is reached. The goal, and a wait before the first corner, are
         not reached by passing them."""
-        self.arrival_terms, self.rounding_terms, self.clearing_terms = (
-            check.terms() for check in (self.arrival, self.rounding, self.clearing)
-        )
-        """The same and those below, as `FleetChecks` takes them."""
         self.yaw: Float = waypoint[:, 2].copy()
         """f8[W] prescribed at each waypoint, NaN = any. A robot that stops at each turns there to the next one."""
         self.yaw[self.first + self.goal] = self.yaw[self.first + self.last]  # where it rests, not as it drives there
@@ -99,6 +104,15 @@ class RouteTables:
             self.waiting_yaw = np.where(np.isnan(self.yaw), onward, self.yaw)
         if rules.stops:
             self.yaw = self.waiting_yaw
+
+    def arrays(self, beyond_bends: bool) -> dict[str, Any]:
+        """The tables by name, as `mrpbench_native.navigation` takes them.
+
+        Args:
+            beyond_bends: paths end where they turn back, not at bends.
+        """
+        tables = {name: np.ascontiguousarray(getattr(self, name)) for name in _TABLES}
+        return tables | {"stop": self.reversal if beyond_bends else self.bend}
 
     def _add_legs(self, clearance: Float, enters_lift: Bool) -> Float:
         """Fill the tables of the corners, given the clearance f8[C] there, and whether bool[C] a robot enters a lift;
@@ -112,13 +126,13 @@ class RouteTables:
         step[is_last] = 0
         length = np.hypot(step[:, 0], step[:, 1])
         heading: Float = step / np.where(is_last, np.nan, length)[:, None]
-        self.legs = Legs.of(*corners.T, *step.T, np.maximum((step * step).sum(axis=1), 1e-300))
-        """C entries: the leg from each corner; that from a robot's last corner has no length."""
+        self.legs: Float = np.column_stack([corners, step, np.maximum((step * step).sum(axis=1), 1e-300)])
+        """f8[C,5] x, y, step and squared length of the leg from each corner; a robot's last one has no length."""
         after = np.roll(np.arange(count), -1)
-        self.rounding = CornerCheck.of(*corners[after].T, *(heading + heading[after]).T)
-        """C entries: when the corner at the end of each leg is rounded."""
-        self.clearing = ClearanceCheck.of(*corners.T, clearance - SLACK)
-        """C entries: when each corner is cleared."""
+        self.rounding: Float = np.column_stack([corners[after], heading + heading[after]])
+        """f8[C,4] the corner at the end of each leg and the direction in which a robot rounds it, NaN = it does not."""
+        self.clearing: Float = np.column_stack([corners, clearance - SLACK])
+        """f8[C,3] each corner and the distance at which it is cleared."""
         self.distance: Float = np.cumsum(length) - length
         """f8[C] metres along the legs of all robots up to each corner."""
         self.is_short: Bool = length <= clearance + SLACK
@@ -140,7 +154,7 @@ class RouteTables:
         found: Int = following - np.repeat(self.first_corner, self.last_corner + 1)
         return found
 
-    def _arrival(self, waypoint: Float, row: Int, heading: Float, rules: ArrivalRules) -> WaypointCheck:
+    def _arrival(self, waypoint: Float, row: Int, heading: Float, rules: ArrivalRules) -> Float:
         goal = self.first + self.goal
         tolerance = np.full(len(waypoint), rules.waypoint_tolerance)
         tolerance[goal] = rules.xy_goal_tolerance
@@ -148,4 +162,4 @@ class RouteTables:
         along = into[row]
         lateral = along[:, 0] * 0 + rules.passing_tolerance
         along[goal], lateral[goal] = np.nan, np.nan
-        return WaypointCheck.of(waypoint[:, 0], waypoint[:, 1], tolerance, along[:, 0], along[:, 1], lateral)
+        return np.column_stack([waypoint[:, :2], tolerance, along, lateral])

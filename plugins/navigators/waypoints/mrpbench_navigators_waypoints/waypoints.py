@@ -21,15 +21,14 @@ from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.worlds.world import World
 from mrpbench_navigators_waypoints.checkers import from_nav2, parameters_of
 from mrpbench_navigators_waypoints.controller_server import ControllerServer
-from mrpbench_navigators_waypoints.detours import DetourOptions, Detours
-from mrpbench_navigators_waypoints.progress_checker import ProgressChecker
+from mrpbench_navigators_waypoints.detours import Detours
 from mrpbench_navigators_waypoints.recoveries.back_up import BackUp
 from mrpbench_navigators_waypoints.recoveries.clear import Clear
 from mrpbench_navigators_waypoints.recoveries.spin import Spin
 from mrpbench_navigators_waypoints.recoveries.wait import Wait
 from mrpbench_navigators_waypoints.recovery_manager import RecoveryManager, RecoveryOptions
 from mrpbench_navigators_waypoints.rotations import Rotations
-from mrpbench_navigators_waypoints.route_follower import RouteFollower
+from mrpbench_navigators_waypoints.route_follower import ProgressRules, RouteFollower
 from mrpbench_navigators_waypoints.route_tables import ArrivalRules
 from mrpbench_navigators_waypoints.session import WaypointsSession
 
@@ -175,24 +174,22 @@ class Waypoints(Navigator):
     ) -> NavigatorSession:
         """Begin at the start of the routes; only controllers draw random numbers."""
         nav2, rules = self.settled(), self.arrival_rules
-        follower = RouteFollower(routes, rules, fleet.radii + fleet.radii.max(initial=0.0), self.path_end == "release")
-        controllers = controller.start_fleet(fleet.robots, world, period, seed)
-        detours = DetourOptions(
-            every=round(self.replan_period / period),
-            planner_tolerance=self.planner_tolerance,
-            waypoint_tolerance=rules.waypoint_tolerance,
+        turns = nav2["progress_checker"] == "PoseProgressChecker"
+        progress = ProgressRules(
+            required_movement_radius=nav2["required_movement_radius"],
+            movement_time_allowance=nav2["movement_time_allowance"],
+            required_movement_angle=nav2["required_movement_angle"] if turns else np.inf,
+            detours_every=round(self.replan_period / period),
+            detours_always=self.planner_tolerance > 0,
         )
+        clearances = fleet.radii + fleet.radii.max(initial=0.0)
+        follower = RouteFollower(routes, rules, clearances, self.path_end == "release", progress)
+        controllers = controller.start_fleet(fleet.robots, world, period, seed)
         recoveries = RecoveryOptions(recoveries=self.recoveries, max_recoveries=self.max_recoveries, period=period)
         return WaypointsSession(
             follower=follower,
             controllers=ControllerServer(controllers, type(controller).__name__, nav2["failure_tolerance"]),
-            progress_checker=ProgressChecker(
-                len(fleet),
-                nav2["required_movement_radius"],
-                nav2["movement_time_allowance"],
-                nav2["required_movement_angle"] if nav2["progress_checker"] == "PoseProgressChecker" else np.inf,
-            ),
-            detours=Detours(follower, controllers, detours),
+            detours=Detours(follower, controllers, self.planner_tolerance, rules.waypoint_tolerance),
             recoveries=RecoveryManager(fleet.robots, recoveries, controllers, follower),
             rotations=Rotations(follower, fleet.robots, period, nav2["movement_time_allowance"]),
             xy_goal_tolerance=min(rules.xy_goal_tolerance, rules.waypoint_tolerance),  # paths also end at waypoints

@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_native.navigation import ProgressChecker
 from mrpbench_navigators_waypoints import Waypoints
-from mrpbench_navigators_waypoints.progress_checker import ProgressChecker
 from mrpbench_navigators_waypoints.route_follower import RouteFollower
 
 from mrpbench_core.files.errors import InputError
@@ -55,21 +55,30 @@ def test_a_position_goal_checker_takes_any_yaw():
     assert not arrives(0.8, 3.14, goal_checker="PositionGoalChecker")
 
 
+def check(checker, now, pose, under_way, speed):
+    """Tell which robots are stuck."""
+    checker.begin(now)
+    return [
+        checker.is_stuck(robot, *place, under_way=bool(under_way[robot]), speed=speed[robot])
+        for robot, place in enumerate(pose)
+    ]
+
+
 @pytest.mark.parametrize(("angle", "stuck"), [(np.inf, True), (0.5, False)])
 def test_turning_is_progress_to_a_pose_progress_checker_alone(angle, stuck):
     checker, under_way = ProgressChecker(1, 0.5, 10.0, angle), np.ones(1, bool)
     free = np.full(1, np.inf)
     poses = ((now, np.array([[0.1, 0.0, 0.06 * now]])) for now in np.arange(0.0, 30.0, 0.5))
-    found = [checker.check(now, pose, under_way, free)[0] for now, pose in poses]
+    found = [check(checker, now, pose, under_way, free)[0] for now, pose in poses]
     assert any(found) == stuck
 
 
 @pytest.mark.parametrize("limit", [0.01, 0.06, 0.3])
 def test_a_robot_that_drives_as_slowly_as_it_has_to_is_not_stuck_but_one_that_stands_is(limit):
     for speed, stuck in ((limit, False), (0.0, True)):
-        checker = ProgressChecker(1, 0.5, 10.0)
+        checker = ProgressChecker(1, 0.5, 10.0, np.inf)
         poses = ((now, np.array([[speed * now, 0.0, 0.0]])) for now in np.arange(0.0, 200.0, 0.5))
-        found = [checker.check(now, pose, np.ones(1, bool), np.full(1, limit))[0] for now, pose in poses]
+        found = [check(checker, now, pose, np.ones(1, bool), np.full(1, limit))[0] for now, pose in poses]
         assert any(found) == stuck
 
 
@@ -104,7 +113,7 @@ def test_robots_are_stuck_when_they_are_by_definition(seed, angle):
         speed = np.where(random.random(count) < 0.8, np.inf, random.uniform(0.01, 0.2, count))
         control.append((0.5 * step, pose, under_way, speed))
     checker = ProgressChecker(count, 0.5, 4.0, angle)
-    found = [checker.check(*each).tolist() for each in control]
+    found = [check(checker, *each) for each in control]
     assert found == list(stuck_by_definition(control, 0.5, 4.0, angle))
 
 

@@ -6,9 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_navigators_waypoints import Waypoints
-from mrpbench_navigators_waypoints.route_checks import FleetChecks
 from mrpbench_navigators_waypoints.route_follower import RouteFollower
-from mrpbench_navigators_waypoints.route_tables import RouteTables
 
 from mrpbench_core.model.execution.route import Route
 
@@ -25,23 +23,24 @@ class Follower:
 
     def update(self, x, y, yaw, speed, released):
         self.pose = np.array([[x, y, yaw]])
-        self.fleet.update(self.pose, np.array([[speed, 0.0]]), np.array([released], np.int32), np.zeros(1, np.int16))
+        twist = np.array([[speed, 0.0]])
+        self.fleet.update(self.pose, twist, np.array([released], np.int32), np.zeros(1, np.int16))
+        self.fleet.survey(0.0, self.pose, twist)
 
     def adopt(self, route):
         self.fleet.adopt([route])
 
     reached = property(lambda self: self.fleet.reached[0])
     cleared = property(lambda self: self.fleet.cleared[0])
-    under_way = property(lambda self: self.fleet.under_way(self.pose)[0])
+    under_way = property(lambda self: bool(self.fleet.under_way[0]))
     yaw = property(lambda self: self.fleet.yaw[0])
     speed = property(lambda self: self.fleet.speed[0])
 
     @property
     def path(self):
-        foot = self.fleet.foot(self.pose)
-        if not self.fleet.driven(self.pose, foot)[0]:
+        if not self.fleet.following[0]:
             return None
-        return np.vstack([foot, self.fleet.corners[self.fleet.begin[0] : self.fleet.end[0]]])
+        return np.vstack([self.fleet.foot, self.fleet.corners[self.fleet.begin[0] : self.fleet.end[0]]])
 
 
 def route(points, yaw=math.nan, speed=math.inf):
@@ -290,29 +289,6 @@ def test_robots_in_a_fleet_do_not_disturb_one_another(seed):
         for robot, single in enumerate(alone):
             single.update(pose[robot : robot + 1], np.array([[0.2, 0.0]]), released[:1], np.zeros(1, np.int16))
             assert (single.reached[0], single.cleared[0]) == (together.reached[robot], together.cleared[robot])
-
-
-@settings(deadline=None, max_examples=40)
-@given(st.integers(0, 2**32 - 1))
-def test_the_checks_of_the_fleet_miss_nothing_that_the_exact_ones_find(seed):
-    random = np.random.default_rng(seed)
-    routes = [route(np.cumsum(random.choice([-0.4, 0, 0.4], (9, 2)), axis=0)) for _ in range(3)]
-    tables = RouteTables(routes, RULES, np.full(3, CLEARANCE))
-    entries = random.integers(0, len(tables.corners), 50), random.integers(0, 27, 50)
-    checks, robots, always = FleetChecks(50), np.arange(50), np.ones(50, bool)
-    corner, waypoint = entries
-    checks.replace(checks.VERTEX, robots, tables.clearing_terms.take(corner, axis=1), always)
-    checks.replace(checks.CORNER, robots, tables.rounding_terms.take(corner, axis=1), always)
-    checks.replace(checks.WAYPOINT, robots, tables.arrival_terms.take(waypoint, 2), always)
-    place = tables.corners[corner].T + random.choice([0.0, 0.1, CLEARANCE], (2, 50)) * random.uniform(-1, 1, 50)
-    exact = (
-        tables.arrival.take(waypoint).holds(*place),
-        tables.rounding.take(corner).holds(*place),
-        tables.clearing.take(corner).holds(*place),
-    )
-    for found, wanted in zip(checks.hold(*place), exact, strict=True):
-        assert found[wanted].all()
-        assert found.sum() <= wanted.sum() + 3  # those at a bound
 
 
 def test_a_robot_that_stops_at_waypoints_turns_there_to_the_next():
