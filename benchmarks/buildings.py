@@ -17,11 +17,11 @@ from typing import Any
 import numpy as np
 from movingai import PATIENCE, algorithm_of
 from mrpbench_tests.instances.buildings import random_building
+from mrpbench_worlds_standard.rmf import Rmf
 from problem_building import MEMORY, problem_of
 
 import mrpbench_core
 from mrpbench_core.builtin.roadmaps.graph import Graph
-from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.drive.plan import call_planner

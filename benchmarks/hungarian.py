@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 from mrpbench_native.mapf import cheapest_assignment, path_lengths
+from mrpbench_worlds_standard.shipped import Warehouse
 from scipy.optimize import linear_sum_assignment
 
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
-from mrpbench_core.builtin.worlds.shipped import Warehouse
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Fleet

@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 from mrpbench_localizers_amcl import Amcl
 from mrpbench_simulators_planar import Planar
+from mrpbench_worlds_standard.shipped import Office
 
 import mrpbench_core
-from mrpbench_core.builtin.worlds.shipped import Office
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.common.poses import wrapped

@@ -7,12 +7,11 @@ from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
+from mrpbench_worlds_standard.barn import Barn
+from mrpbench_worlds_standard.movingai import MovingAi
+from mrpbench_worlds_standard.movingai_scenario import MovingAiScenario
+from mrpbench_worlds_standard.ros_map import RosMap
 from PIL import Image
-
-from mrpbench_core.builtin.scenarios.movingai import MovingAiScenario
-from mrpbench_core.builtin.worlds.barn import Barn
-from mrpbench_core.builtin.worlds.movingai import MovingAi
-from mrpbench_core.builtin.worlds.ros_map import RosMap
 
 
 def read_image(file: Path) -> None:

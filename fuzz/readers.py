@@ -23,10 +23,10 @@ from mrpbench_localizers_amcl import Amcl
 from mrpbench_metrics_standard import execution, planning
 from mrpbench_planners_external.outputs import READERS as OUTPUTS
 from mrpbench_planners_external.outputs import UnreadableError
+from mrpbench_worlds_standard.rmf import Rmf
 from mutation import Mutate, mutate_bytes, mutate_npy, mutate_text
 
 from mrpbench_core.builtin.task_sources.trace import read_arrivals
-from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.robot import load_robot
@@ -217,7 +217,7 @@ def read_nav2(file: Path) -> None:
 @functools.cache
 def office() -> World:
     """A world."""
-    return Rmf(file=ROOT / "mrpbench_core/builtin/worlds/data/office.building.yaml").load()
+    return Rmf(file=ROOT / "plugins/worlds/standard/mrpbench_worlds_standard/data/office.building.yaml").load()
 
 
 def read_urdf(file: Path) -> None:

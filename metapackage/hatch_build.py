@@ -15,8 +15,8 @@ DEFAULT = (
 EXTRAS = {
     "dask": "mrpbench-executors-dask",
     "figures": "mrpbench-core[figures]",
-    "geo": "mrpbench-core[geo]",
-    "images": "mrpbench-core[images]",
+    "geo": "mrpbench-standard[geo]",
+    "images": "mrpbench-standard[images]",
     "ortools": "mrpbench-assigners-ortools",
     "parquet": "mrpbench-core[parquet]",
     "pybullet": "mrpbench-simulators-pybullet",

@@ -22,12 +22,17 @@ _PLANNERS = (
     *("astar", "prioritized", "cbs", "ecbs", "eecbs", "cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"),
     *("pbs", "pibt", "lacam", "lns", "token_passing", "example", "external"),
 )
+_WORLDS = (
+    *("rmf", "movingai", "ros_map", "barn", "dynabarn", "office", "warehouse", "airport", "household", "hospital"),
+    *("bottlenecks", "encounters", "station", "office_noon", "hospital_corridor", "warehouse_pickers"),
+    *("generated_warehouse", "generated_rooms", "generated_field", "generated_random"),
+)
 PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-standard": {
         "mrpbench.assigners": ("hungarian",),
         "mrpbench.controllers": ("dwb", "global_planner", "graceful", "mppi", "pure_pursuit", "rotation_shim", "rpp"),
         "mrpbench.critics": _CRITICS,
-        "mrpbench.crowds": ("carts", "orca", "social_force"),
+        "mrpbench.crowds": ("carts", "dynabarn", "orca", "scripted", "social_force"),
         "mrpbench.dispatchers": ("btpg", "gses", "sadg"),
         "mrpbench.localizers": ("amcl",),
         "mrpbench.metrics": _METRICS,
@@ -35,7 +40,9 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.navigators": ("waypoints",),
         "mrpbench.planners": _PLANNERS,
         "mrpbench.recoveries": ("back_up", "clear", "spin", "wait"),
+        "mrpbench.scenarios": ("barn", "movingai"),
         "mrpbench.simulators": ("planar",),
+        "mrpbench.worlds": _WORLDS,
     },
     "mrpbench-analysis": {"mrpbench.commands": ("analyze",)},
     "mrpbench-publish": {"mrpbench.commands": ("publish", "site", "verify")},

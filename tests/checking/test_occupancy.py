@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_worlds_standard.shipped import Household
 
-from mrpbench_core.builtin.worlds.shipped import Household
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.occupancy import rasterise
 from mrpbench_core.files.errors import InputError

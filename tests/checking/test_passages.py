@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
+from mrpbench_worlds_standard.shipped import Household, Office, Warehouse
 
-from mrpbench_core.builtin.worlds.shipped import Household, Office, Warehouse
 from mrpbench_core.checking.passages import narrow_passages
 from mrpbench_core.model.worlds.world import Level, Obstacle
 

@@ -2,9 +2,9 @@ import argparse
 import json
 
 import pytest
+from mrpbench_worlds_standard.shipped import Household
 
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
-from mrpbench_core.builtin.worlds.shipped import Household
 from mrpbench_core.cli import world as command
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
+from mrpbench_worlds_standard.movingai import MovingAi
 
-from mrpbench_core.builtin.worlds.movingai import MovingAi
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.raster import write_movingai_map, write_ros_map
 from mrpbench_core.model.worlds.occupancy import Occupancy

@@ -4,9 +4,9 @@ import json
 import sys
 
 import pytest
+from mrpbench_worlds_standard.shipped import FOLDER
 
 from mrpbench_core.api import KINDS
-from mrpbench_core.builtin.worlds.shipped import FOLDER
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.plugins.installed import installed, load
 from mrpbench_core.plugins.kinds import HOOKS

@@ -2,9 +2,9 @@ import json
 
 import pytest
 from mrpbench_league.task_source import LorrTasks
+from mrpbench_worlds_standard.movingai import MovingAi
 
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
-from mrpbench_core.builtin.worlds.movingai import MovingAi
 from mrpbench_core.testing import TaskSourceConformance
 from mrpbench_core.testing.fixtures.room import fleet
 

@@ -1,9 +1,9 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_worlds_standard.rmf import Rmf
 
 from mrpbench_core.builtin.roadmaps.graph import Graph
-from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.components import components
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.worlds.world import Lane, Level, Vertex, World

@@ -3,10 +3,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_worlds_standard.movingai import MovingAi
+from mrpbench_worlds_standard.rmf import Rmf
 
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
-from mrpbench_core.builtin.worlds.movingai import MovingAi
-from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.components import components
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet, RobotModel

@@ -5,9 +5,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_worlds_standard.rmf import Rmf
 
 from mrpbench_core.builtin.roadmaps.lanes import Lanes
-from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.components import components
 from mrpbench_core.files.errors import InputError

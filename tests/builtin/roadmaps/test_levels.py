@@ -3,12 +3,12 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_worlds_standard.rmf import Rmf
 
 from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.builtin.roadmaps.lanes import Lanes
 from mrpbench_core.builtin.scenarios.random import Random
-from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.reachability import round_trips
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.worlds.world import Lane, Level, Vertex

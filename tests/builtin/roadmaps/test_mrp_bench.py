@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from mrpbench_worlds_standard.rmf import Rmf
 
 from mrpbench_core.builtin.roadmaps.lanes import Lanes
 from mrpbench_core.builtin.roadmaps.mrp_bench import mrp_bench_raster
-from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.checking.components import components
 from mrpbench_core.checking.navigation import unique_edges
 from mrpbench_core.model.worlds.world import Lane, Level, Vertex, World

@@ -166,7 +166,7 @@ def test_the_originals_draw_takes_all_vertices_as_they_come():
     ],
 )
 def test_the_originals_scenarios_come_out_again(shared_data, name, seed, starts, goals):
-    rmf = pytest.importorskip("mrpbench_core.builtin.worlds.rmf")
+    rmf = pytest.importorskip("mrpbench_worlds_standard.rmf")
     world = rmf.Rmf(file=shared_data / "rmf" / "mrp_bench" / f"{name}.building.yaml").load()
     count = len(starts.split())
     scenario = Random(robots=count, compatible="mrp_bench").draw(world, raster(1, 1), fleet_of(count), seed)

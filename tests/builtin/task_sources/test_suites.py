@@ -1,13 +1,13 @@
 """The contract of task sources with other options than in `tests/testing/test_first_party.py`."""
 
 import pytest
+from mrpbench_worlds_standard.shipped import Hospital
 
 from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.task_sources.closed_pool import ClosedPool
 from mrpbench_core.builtin.task_sources.pickup_delivery import PickupDelivery
 from mrpbench_core.builtin.task_sources.poisson import Poisson
 from mrpbench_core.builtin.task_sources.trace import Trace
-from mrpbench_core.builtin.worlds.shipped import Hospital
 from mrpbench_core.testing import TaskSourceConformance
 from mrpbench_core.testing.fixtures.room import fleet
 

@@ -3,10 +3,10 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_crowds_scripted.scripted import Scripted, Track
 
 from mrpbench_core.api import Crowd, CrowdSession, Mover, Movers
 from mrpbench_core.api.contract import BrokenContractError
-from mrpbench_core.builtin.crowds.scripted import Scripted, Track
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.crowds import Crowds
 from mrpbench_core.engine.run import execute

@@ -1,8 +1,8 @@
 """Whole runs through doors, and past them."""
 
 import pytest
+from mrpbench_worlds_standard.rmf import Rmf
 
-from mrpbench_core.builtin.worlds.rmf import Rmf
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.run import execute
 from mrpbench_core.store.paths import RunPaths

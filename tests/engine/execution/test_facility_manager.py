@@ -10,9 +10,9 @@ from hypothesis import event, given, settings
 from hypothesis import strategies as st
 from mrpbench_tests.execution.facility_executor import FacilityExecutor
 from mrpbench_tests.fixtures.places import PLACES, furnished_building, problem_between
+from mrpbench_worlds_standard.shipped import Hospital
 
 from mrpbench_core.api.dispatcher import DispatchError
-from mrpbench_core.builtin.worlds.shipped import Hospital
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
 from mrpbench_core.engine.execution.resources import ExecutionError
 from mrpbench_core.model.execution.orders import FleetView

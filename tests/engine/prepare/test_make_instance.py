@@ -2,9 +2,9 @@
 
 import attrs
 import pytest
+from mrpbench_worlds_standard.shipped import Office
 
 from mrpbench_core.api.contract import BrokenContractError
-from mrpbench_core.builtin.worlds.shipped import Office
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.prepare.make_instance import build_run_instance
 from mrpbench_core.engine.prepare.question import Question
@@ -68,7 +68,7 @@ import numpy as np
 from mrpbench_core.api import option
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.builtin.scenarios.random import Random
-from mrpbench_core.builtin.worlds.shipped import Office
+from mrpbench_worlds_standard.shipped import Office
 
 
 @attrs.frozen(kw_only=True)

@@ -3,9 +3,9 @@ import struct
 
 import numpy as np
 import pytest
+from mrpbench_worlds_standard.shipped import Office
 
 from mrpbench_core.builtin.roadmaps.lanes import Lanes
-from mrpbench_core.builtin.worlds.shipped import Office
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.route import Route

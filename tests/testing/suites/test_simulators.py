@@ -4,9 +4,9 @@ import attrs
 import numpy as np
 import pytest
 from mrpbench_tests.variant import variant
+from mrpbench_worlds_standard.shipped import Office
 
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
-from mrpbench_core.builtin.worlds.shipped import Office
 from mrpbench_core.testing import failed_checks, suite_for
 from mrpbench_core.testing.fixtures.room import fleet
 

@@ -3,10 +3,10 @@
 import attrs
 import numpy as np
 from mrpbench_tests.variant import variant
+from mrpbench_worlds_standard.shipped import Office
 
 from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.scenarios.random import Random
-from mrpbench_core.builtin.worlds.shipped import Office
 from mrpbench_core.testing import failed_checks, suite_for
 
 

@@ -3,9 +3,9 @@ import pytest
 from mrpbench_crowds_walking import Carts, Orca, SocialForce
 from mrpbench_crowds_walking.crowds import Person
 from mrpbench_crowds_walking.reactions import nearest_seen, react
+from mrpbench_worlds_standard.shipped import Encounters
 
 from mrpbench_core.api import CrowdView, Movers
-from mrpbench_core.builtin.worlds.shipped import Encounters
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.worlds.facilities import Facilities

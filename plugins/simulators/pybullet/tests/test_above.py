@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_simulators_pybullet.above import occupancy_from_above, triangulate
+from mrpbench_worlds_standard.generated.rooms import GeneratedRooms
+from mrpbench_worlds_standard.rmf import Rmf
+from mrpbench_worlds_standard.shipped import Bottlenecks, Household, Office, Warehouse
 
-from mrpbench_core.builtin.worlds.generated.rooms import GeneratedRooms
-from mrpbench_core.builtin.worlds.rmf import Rmf
-from mrpbench_core.builtin.worlds.shipped import Bottlenecks, Household, Office, Warehouse
 from mrpbench_core.checking.clearance import solids
 from mrpbench_core.checking.occupancy import bounds, rasterise
 from mrpbench_core.model.common.geometry import point_segment_distance

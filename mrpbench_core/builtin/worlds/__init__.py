@@ -1,1 +1,0 @@
-"""Worlds that need only the core's dependencies."""

@@ -1,0 +1,1 @@
+"""Crowds whose movers follow tracks: `scripted` and `dynabarn`."""
