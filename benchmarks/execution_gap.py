@@ -15,8 +15,9 @@ from collections.abc import Iterator, Mapping
 from statistics import median
 from typing import Any
 
+from mrpbench_analysis.calibration import calibrate, drive_of
+
 from mrpbench_core import run
-from mrpbench_core.builtin.roadmaps.calibration import calibrate, drive_of
 from mrpbench_core.model.runs.arrivals import arrival_times
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.store.results import Results

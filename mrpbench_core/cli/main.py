@@ -28,8 +28,6 @@ COMMANDS = {
     "run": "do the runs of a study that have no record yet",
     "report": "print tables of results with intervals, and write an HTML page",
     "compare": "compare two results folders and test the differences",
-    "calibrate": "fit the durations of a roadmap to how a controller drives",
-    "saturate": "find the rate of tasks that the fleets of a study can serve",
     "view": "write a replay of a run as an HTML page",
     "export": "write a stored run in another format",
     "scenario": "write the scenarios of a study to files, for publication",

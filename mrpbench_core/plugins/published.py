@@ -44,7 +44,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.simulators": ("planar",),
         "mrpbench.worlds": _WORLDS,
     },
-    "mrpbench-analysis": {"mrpbench.commands": ("analyze",)},
+    "mrpbench-analysis": {"mrpbench.commands": ("analyze", "calibrate", "saturate")},
     "mrpbench-publish": {"mrpbench.commands": ("publish", "site", "verify")},
     "mrpbench-assigners-ortools": {"mrpbench.assigners": ("ortools_mip", "ortools_sat")},
     "mrpbench-bridges-ros2": {"mrpbench.navigators": ("ros2",), "mrpbench.hooks": ("ros2",)},

@@ -19,10 +19,8 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.common.fleet import RobotModel
-from mrpbench_core.model.planning.roadmap import Resource, Roadmap
+from mrpbench_core.model.planning.roadmap import BEND, Resource, Roadmap
 
-BEND = 0.3
-"""radians: robots turn by less without stopping, see the navigator `waypoints`; that takes one tick."""
 _STEP = 0.01
 """radians: directions are rounded to multiples, so that the pieces of a straight lane have one heading."""
 

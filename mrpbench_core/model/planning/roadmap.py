@@ -5,6 +5,10 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Float, Int, Int16, Int32, array
 
+BEND = 0.3
+"""radians: robots turn by less without stopping, see the navigator `waypoints`; with `kinodynamic` durations that takes
+one tick."""
+
 
 @attrs.frozen(kw_only=True)
 class Resource:

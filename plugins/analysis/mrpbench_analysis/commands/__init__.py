@@ -1,7 +1,9 @@
-"""The command of this distribution."""
+"""The commands of this distribution."""
 
 from mrpbench_core.cli.command import Command
 
 ANALYZE = Command(
     "compute metrics of a bag from a real fleet or another simulator", "mrpbench_analysis.commands.analyze"
 )
+CALIBRATE = Command("fit the durations of a roadmap to how a controller drives", "mrpbench_analysis.commands.calibrate")
+SATURATE = Command("find the rate of tasks that the fleets of a study can serve", "mrpbench_analysis.commands.saturate")

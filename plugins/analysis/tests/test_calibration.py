@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mrpbench_analysis.calibration import Drive, calibrate
 
-from mrpbench_core.builtin.roadmaps.calibration import Drive, calibrate
 from mrpbench_core.files.errors import InputError
 
 TURN, STOP, TICK = 1.4, 0.5, 0.1

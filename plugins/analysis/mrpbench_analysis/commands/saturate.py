@@ -12,6 +12,7 @@ from typing import Any
 
 import attrs
 
+from mrpbench_analysis.saturation import TOLERANCE, Growth, growth, next_rate, saturation
 from mrpbench_core.cli.input.arguments import add_configuration, split_words
 from mrpbench_core.cli.output.progress import Printed
 from mrpbench_core.cli.output.table import print_json, print_table
@@ -22,7 +23,6 @@ from mrpbench_core.engine.study.reading import read_study
 from mrpbench_core.engine.study.study import run_study
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.model.runs.status import RunStatus
-from mrpbench_core.report.estimation.saturation import TOLERANCE, Growth, growth, next_rate, saturation
 from mrpbench_core.report.reading.axes import NO_AXES, find_axes, name_axes
 
 COLUMN = ".open_growth"

@@ -12,9 +12,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mrpbench_core.builtin.roadmaps.headings import BEND
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.planning.roadmap import BEND
 from mrpbench_core.model.runs.run import RunContext
 
 

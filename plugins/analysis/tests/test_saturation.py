@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from mrpbench_core.report.estimation.saturation import TOLERANCE, Verdict, growth, next_rate, saturation
+from mrpbench_analysis.saturation import TOLERANCE, Verdict, growth, next_rate, saturation
 
 SERVICE_S = 30.0
 """A robot that shuttles between two places: it does two tasks a minute."""

@@ -4,8 +4,7 @@ import json
 from pathlib import Path
 
 import pytest
-
-from mrpbench_core.cli.saturate import Search
+from mrpbench_analysis.commands.saturate import Search
 
 STUDY = """\
 name: shuttle

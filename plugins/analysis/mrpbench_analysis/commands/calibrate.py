@@ -4,7 +4,7 @@ import argparse
 import math
 from collections import defaultdict
 
-from mrpbench_core.builtin.roadmaps.calibration import Drive, calibrate, drive_of
+from mrpbench_analysis.calibration import Drive, calibrate, drive_of
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.arrivals import arrival_times

@@ -12,8 +12,8 @@ from itertools import pairwise
 import attrs
 import numpy as np
 
+from mrpbench_analysis.student import quantile
 from mrpbench_core.report.statistics.estimate import LEVEL
-from mrpbench_core.report.statistics.student import quantile
 
 TOLERANCE = 0.05
 """Share of the tasks that piles up at the saturation rate. Short runs show a little growth below it."""

@@ -1,8 +1,7 @@
 """Quantiles of Student's t against printed tables."""
 
 import pytest
-
-from mrpbench_core.report.statistics.student import quantile
+from mrpbench_analysis.student import quantile
 
 
 @pytest.mark.parametrize(
