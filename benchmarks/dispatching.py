@@ -16,6 +16,7 @@ from collections.abc import Sequence
 import numpy as np
 from mrpbench_dispatchers_reordering import Btpg, Gses, Sadg
 from mrpbench_planners_mapf.lacam import Lacam
+from mrpbench_tests.instances.roadmaps import grid_of
 
 from mrpbench_core.api import Dispatcher
 from mrpbench_core.builtin.dispatchers.adg import Adg
@@ -24,7 +25,6 @@ from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.planning.plan import Budget, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.testing.drawing import build
-from mrpbench_core.testing.instances.roadmaps import grid_of
 
 DISPATCHERS = {"adg": Adg, "gses": Gses, "sadg": Sadg, "btpg": Btpg}
 SLOW = 0.1

@@ -8,7 +8,8 @@
 capital its goal; `aB` is both; several cells with one capital are a goal set. Robots are in the order of their letters.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from itertools import accumulate, pairwise
 from typing import Any
 
 import attrs
@@ -88,3 +89,17 @@ def unit_path(edges: Iterable[int]) -> Path:
     """A path that begins at tick 0 and takes one tick for each of its edges, -1 = wait."""
     edge = np.array(list(edges), np.int32)
     return Path(edge=edge, enter=np.arange(len(edge)), leave=np.arange(len(edge)) + 1)
+
+
+def path_through(road: Roadmap, vertices: Sequence[int]) -> Path:
+    """A path through `vertices`, each edge in its duration; a repeated vertex is a wait of one tick."""
+    index = {(tail, head): edge for edge, (tail, head) in enumerate(road.edges.tolist())}
+    steps = [index[a, b] if a != b else -1 for a, b in pairwise(map(int, vertices))]
+    ticks = [1 if edge < 0 else int(road.duration[0, edge]) for edge in steps]
+    times = [0, *accumulate(ticks)]
+    return timed_path(steps, times[:-1], times[1:])
+
+
+def timed_path(edge: Sequence[int], enter: Sequence[int], leave: Sequence[int]) -> Path:
+    """A path from lists."""
+    return Path(edge=np.array(edge, np.int32), enter=np.array(enter, np.int64), leave=np.array(leave, np.int64))

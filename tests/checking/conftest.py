@@ -5,11 +5,11 @@ from types import SimpleNamespace
 import attrs
 import numpy as np
 import pytest
+from mrpbench_tests.instances.roadmaps import roadmap, two_way_grid
 
 from mrpbench_core.model.planning.plan import Path
 from mrpbench_core.model.planning.problem import Problem, features_of
 from mrpbench_core.model.planning.roadmap import Roadmap
-from mrpbench_core.testing.instances.roadmaps import roadmap, two_way_grid
 
 
 def two_way(points, pairs, ticks=1, level=0) -> Roadmap:

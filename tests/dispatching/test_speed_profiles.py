@@ -9,6 +9,7 @@ from mrpbench_tests.execution.batch_executor import NOT_YET, BatchExecutor
 from mrpbench_tests.execution.drawn_executions import drained
 from mrpbench_tests.execution.meetings import meetings
 from mrpbench_tests.instances.random_plans import random_plan
+from mrpbench_tests.instances.roadmaps import two_way_grid
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
@@ -16,9 +17,8 @@ from mrpbench_core.config.delays import Delays
 from mrpbench_core.dispatching.speed_profiles import Network, SpeedProfiles, first_slope, late_times, latest_arrivals
 from mrpbench_core.engine.execution.delays import DrawnDelays
 from mrpbench_core.model.planning.plan import Plan
-from mrpbench_core.testing.drawing import build
+from mrpbench_core.testing.drawing import build, path_through
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
-from mrpbench_core.testing.instances.roadmaps import path_through, two_way_grid
 
 optimize = pytest.importorskip("scipy.optimize")
 SEEDS = st.integers(0, 2**32 - 1)

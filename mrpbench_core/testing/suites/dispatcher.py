@@ -13,13 +13,12 @@ from mrpbench_core.model.execution.orders import BatchOrders, FleetView, Orders
 from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Resource
-from mrpbench_core.testing.drawing import problem
+from mrpbench_core.testing.drawing import path_through, problem
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
 from mrpbench_core.testing.execution.drain import MOST_STEPS, drain
 from mrpbench_core.testing.execution.resource_manager import ResourceManager
 from mrpbench_core.testing.faults import Fault, Skip, require
-from mrpbench_core.testing.instances.named import BAY, CONVOY, CROSSING
-from mrpbench_core.testing.instances.roadmaps import path_through
+from mrpbench_core.testing.named_problems import BAY, CONVOY, CROSSING
 from mrpbench_core.testing.suites.component import ComponentConformance
 
 SEEDS = range(12)

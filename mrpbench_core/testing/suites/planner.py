@@ -1,6 +1,5 @@
 """Checks that every planner must pass."""
 
-import math
 import pickle
 import time
 from collections.abc import Iterator
@@ -14,14 +13,10 @@ from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.referee.plans import Promises
 from mrpbench_core.testing.drawing import build, grid
 from mrpbench_core.testing.faults import Fault, Skip, require
-from mrpbench_core.testing.instances.named import choices, solvable, unsolvable
-from mrpbench_core.testing.oracles.optimum import UNSUPPORTED, least_sum_of_costs
-from mrpbench_core.testing.oracles.planner_call import call
+from mrpbench_core.testing.named_problems import OPTIMA, choices, solvable, unsolvable
+from mrpbench_core.testing.planner_call import call
 from mrpbench_core.testing.suites.component import ComponentConformance
 
-"""Features that `check_plan` does not check."""
-MOST_STATES = 400_000
-"""Joint states that the search for an optimum may see; the problems here need far fewer."""
 TRIES = 3
 """Calls of which the fastest counts, because machines are busy."""
 SHORT = 1.0
@@ -31,7 +26,7 @@ SHORT = 1.0
 class PlannerConformance(ComponentConformance):
     """Checks of planners: `class TestMine(PlannerConformance)`.
 
-    The problems are those of `mrpbench_core.testing.instances.named` that the planner does not skip.
+    The problems are those of `mrpbench_core.testing.named_problems` that the planner does not skip.
     """
 
     def make(self) -> Planner:
@@ -208,14 +203,11 @@ def asked(planner: Planner) -> Iterator[tuple[str, Problem]]:
             yield name, problem
 
 
-def compared(planner: Planner) -> Iterator[tuple[str, Problem, float]]:
-    """Return the problems whose optimum brute force finds, with the optimum."""
+def compared(planner: Planner) -> Iterator[tuple[str, Problem, int]]:
+    """Problems whose least sum of costs is known, by name, with it."""
     for name, problem in asked(planner):
-        if not problem.features & UNSUPPORTED:
-            optimum = least_sum_of_costs(problem, MOST_STATES)
-            assert optimum is not None, f"{name} is too large"
-            assert optimum < math.inf, f"{name} has no plan"
-            yield name, problem, optimum
+        if name in OPTIMA:
+            yield name, problem, OPTIMA[name]
 
 
 def answer(result: PlanResult) -> tuple[object, ...]:

@@ -5,12 +5,13 @@ from types import SimpleNamespace
 import attrs
 import numpy as np
 import pytest
+from mrpbench_tests.instances.roadmaps import two_way, two_way_grid
 
 from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Problem, features_of
 from mrpbench_core.model.planning.roadmap import Roadmap
-from mrpbench_core.testing.instances.roadmaps import path_through, two_way, two_way_grid
+from mrpbench_core.testing.drawing import path_through
 
 
 def problem(roadmap: Roadmap, plan: Plan, starts, radius: float = 0.1, features=frozenset(), **fields) -> Problem:

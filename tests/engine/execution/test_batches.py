@@ -6,6 +6,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources
+from mrpbench_tests.instances.roadmaps import two_way_grid
 
 from mrpbench_core.api import BatchSession, DispatchError, DispatcherSession
 from mrpbench_core.api.contract import BrokenContractError
@@ -17,8 +18,7 @@ from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.worst_case import Adversary
 from mrpbench_core.model.execution.orders import BatchOrders
 from mrpbench_core.model.planning.plan import Plan
-from mrpbench_core.testing.drawing import build
-from mrpbench_core.testing.instances.roadmaps import path_through, two_way_grid
+from mrpbench_core.testing.drawing import build, path_through
 
 DELAYS = st.builds(
     Delays,

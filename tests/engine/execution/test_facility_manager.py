@@ -21,7 +21,7 @@ from mrpbench_core.model.planning.plan import Budget, Plan
 from mrpbench_core.model.planning.roadmap import Resource
 from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.world import Door, Lane, Level, Vertex, World
-from mrpbench_core.testing.instances.roadmaps import path_through
+from mrpbench_core.testing.drawing import path_through
 
 ENDS = [f"{name}_{level}" for name, level in product(PLACES, (0, 1)) if name not in ("landing", "cabin")]
 LONGEST = 6000

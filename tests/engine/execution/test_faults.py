@@ -8,6 +8,7 @@ import pytest
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources
+from mrpbench_tests.instances.roadmaps import two_way_grid
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
@@ -27,7 +28,6 @@ from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
-from mrpbench_core.testing.instances.roadmaps import two_way_grid
 
 reordering = pytest.importorskip("mrpbench_dispatchers_reordering")
 PERIOD = 0.25

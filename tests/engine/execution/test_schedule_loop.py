@@ -6,6 +6,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources
+from mrpbench_tests.instances.roadmaps import two_way_grid
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
@@ -25,8 +26,7 @@ from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
-from mrpbench_core.testing.drawing import build
-from mrpbench_core.testing.instances.roadmaps import path_through, two_way_grid
+from mrpbench_core.testing.drawing import build, path_through
 
 PERIOD = 0.25
 

@@ -3,11 +3,11 @@ from itertools import pairwise
 import attrs
 import numpy as np
 from mrpbench_tests.instances.problems import problem_on
+from mrpbench_tests.instances.roadmaps import grid_of
 
 from mrpbench_core.engine.execution.visits import Visits
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.testing.drawing import unit_path
-from mrpbench_core.testing.instances.roadmaps import grid_of
 
 ROADMAP = grid_of(["....."])
 LEVELS = np.zeros(2, np.int16)

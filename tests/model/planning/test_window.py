@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_tests.instances.problems import grid_of, problem_on
+from mrpbench_tests.instances.roadmaps import roadmap
 
 from mrpbench_core.builtin.planners.rolling_horizon import RollingHorizon
 from mrpbench_core.checking.plan import check_plan
@@ -11,7 +12,6 @@ from mrpbench_core.engine.execution.commitments import commitments
 from mrpbench_core.model.planning.plan import Budget
 from mrpbench_core.model.planning.problem import Feature, features_of
 from mrpbench_core.model.planning.window import leads_to_goals
-from mrpbench_core.testing.instances.roadmaps import roadmap
 
 pytest.importorskip("mrpbench_planners_mapf")
 from mrpbench_planners_mapf.lacam import Lacam

@@ -7,13 +7,13 @@ from typing import ClassVar
 import attrs
 import pytest
 from mrpbench_tests.instances.problems import problem_on
+from mrpbench_tests.instances.roadmaps import grid_of
 from mrpbench_tests.oracles.judge import answer_faults, ask, changes, contradictions
 
 from mrpbench_core.api.planner import Planner, Promise
 from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.testing.faults import Fault
-from mrpbench_core.testing.instances.roadmaps import grid_of
 
 BUDGET = Budget(wall_s=1, memory_bytes=1 << 20)
 ASKED = problem_on(grid_of(["...", "..."]), [0], [2])  # 0 1 2 above 3 4 5

@@ -4,11 +4,11 @@ import math
 
 import pytest
 from hypothesis import given, settings
+from mrpbench_tests.oracles.optimum import UNSUPPORTED, least_sum_of_costs
 
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.testing.drawing import grid, problem
-from mrpbench_core.testing.instances.named import BAY, CROSSING, solvable, unsolvable
-from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
+from mrpbench_core.testing.named_problems import BAY, CROSSING, OPTIMA, solvable, unsolvable
 from mrpbench_core.testing.strategies import plans
 
 BY_HAND = {
@@ -30,6 +30,15 @@ BY_HAND = {
 @pytest.mark.parametrize("name", BY_HAND)
 def test_optima_are_those_found_by_hand(name):
     assert least_sum_of_costs(solvable()[name]) == BY_HAND[name]
+
+
+@pytest.mark.parametrize("name", OPTIMA)
+def test_the_optima_of_the_conformance_kit_are_right(name):
+    assert least_sum_of_costs(solvable()[name], 400_000) == OPTIMA[name]
+
+
+def test_the_conformance_kit_lacks_only_optima_that_brute_force_cannot_find():
+    assert {name for name, drawn in solvable().items() if drawn.features & UNSUPPORTED} == {*solvable()} - {*OPTIMA}
 
 
 @pytest.mark.parametrize("name", unsolvable())

@@ -14,7 +14,7 @@ from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.testing import failed_checks, suite_for
 from mrpbench_core.testing.drawing import problem
 from mrpbench_core.testing.faults import Fault
-from mrpbench_core.testing.oracles.planner_call import call
+from mrpbench_core.testing.planner_call import call
 
 
 @attrs.frozen(kw_only=True)
@@ -130,8 +130,8 @@ def test_a_planner_that_changes_its_mind():
 
 
 def test_a_planner_that_ignores_its_budget(monkeypatch):
-    monkeypatch.setattr("mrpbench_core.testing.oracles.planner_call.LATE_S", 0.05)
-    monkeypatch.setattr("mrpbench_core.testing.oracles.planner_call.HANGS_S", 0.1)
+    monkeypatch.setattr("mrpbench_core.testing.planner_call.LATE_S", 0.05)
+    monkeypatch.setattr("mrpbench_core.testing.planner_call.HANGS_S", 0.1)
     from threading import Event
 
     woken = Event()

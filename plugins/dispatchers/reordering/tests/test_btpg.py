@@ -8,14 +8,14 @@ from mrpbench_dispatchers_reordering import Btpg, btpg
 from mrpbench_dispatchers_reordering.visits import NONE
 from mrpbench_tests.execution.drawn_executions import drained
 from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources
+from mrpbench_tests.instances.roadmaps import two_way
 
 from mrpbench_core.api import DispatchError
 from mrpbench_core.checking.strong_components import strong_components
 from mrpbench_core.model.planning.plan import Plan
-from mrpbench_core.testing.drawing import build
+from mrpbench_core.testing.drawing import build, path_through, timed_path
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
 from mrpbench_core.testing.execution.drain import drain
-from mrpbench_core.testing.instances.roadmaps import path_through, timed_path, two_way
 from mrpbench_core.testing.suites.dispatcher import DispatcherConformance
 
 SEEDS = st.integers(0, 2**32 - 1)

@@ -4,17 +4,17 @@ import attrs
 import numpy as np
 import pytest
 from mrpbench_dispatchers_reordering import Btpg, Gses, Sadg
+from mrpbench_tests.instances.roadmaps import two_way, two_way_grid
 
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Feature, Rules
 from mrpbench_core.model.planning.roadmap import Resource
-from mrpbench_core.testing.drawing import build
+from mrpbench_core.testing.drawing import build, path_through
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
 from mrpbench_core.testing.execution.drain import drain
 from mrpbench_core.testing.execution.resource_manager import ResourceManager
-from mrpbench_core.testing.instances.roadmaps import path_through, two_way, two_way_grid
 
 LATE = 60
 """steps for which robot 0 does not move."""

@@ -12,11 +12,11 @@ from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
 from mrpbench_tests.instances.kinds import KINDS, Draw
 from mrpbench_tests.instances.random_problems import Random
 from mrpbench_tests.instances.variations import with_candidates
+from mrpbench_tests.oracles.optimum import least_sum_of_costs
 from mrpbench_tests.soak import Soak, drawn_switches, main
 
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 
 BOUNDS = (1.0, 1.01, 1.05, 1.2, 1.5, 3.0)
 ORACLE_STATES = 2000

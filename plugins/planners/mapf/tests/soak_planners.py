@@ -17,12 +17,12 @@ from mrpbench_planners_mapf.prioritized import Prioritized
 from mrpbench_planners_mapf.recipe import NativePlanner
 from mrpbench_tests.instances.kinds import KINDS
 from mrpbench_tests.instances.random_problems import Random
+from mrpbench_tests.oracles.optimum import earliest_arrival, least_makespan, least_sum_of_costs
 from mrpbench_tests.soak import BUDGET, Soak, drawn_switches, main
 
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.testing.oracles.optimum import earliest_arrival, least_makespan, least_sum_of_costs
 
 BOUNDS = (1.0, 1.01, 1.05, 1.1, 1.2, 1.5, 2.0, 5.0)
 ORACLE_STATES = 3000

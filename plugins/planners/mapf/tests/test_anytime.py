@@ -12,9 +12,9 @@ from mrpbench_planners_mapf.pibt import Pibt
 from mrpbench_tests.instances.problems import movingai
 from mrpbench_tests.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
 from mrpbench_tests.oracles.judge import ask
+from mrpbench_tests.oracles.optimum import least_makespan, least_sum_of_costs
 
 from mrpbench_core.model.planning.plan import Budget, PlanStatus
-from mrpbench_core.testing.oracles.optimum import least_makespan, least_sum_of_costs
 
 BUDGET = Budget(wall_s=20, memory_bytes=1 << 30, iterations=50)
 seeds = st.integers(0, 2**32 - 1)

@@ -9,11 +9,11 @@ from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
 from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
 from mrpbench_tests.instances.problems import endless_swap, problem_on
 from mrpbench_tests.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
+from mrpbench_tests.instances.roadmaps import grid_of
 from mrpbench_tests.instances.variations import with_candidates
 from mrpbench_tests.oracles.judge import AMPLE, ask, compare_with_optimum
 
 from mrpbench_core.model.planning.plan import Budget, PlanStatus
-from mrpbench_core.testing.instances.roadmaps import grid_of
 
 SLACK_S = 5.0
 """Far more than the planners need; other work may share the machine."""

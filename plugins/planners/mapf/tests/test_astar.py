@@ -5,12 +5,12 @@ import pytest
 from mrpbench_planners_mapf.astar import Astar
 from mrpbench_tests.instances.problems import problem_on
 from mrpbench_tests.instances.random_problems import random_graph_problem, random_rules
+from mrpbench_tests.instances.roadmaps import grid_of
+from mrpbench_tests.oracles.optimum import earliest_arrival
 
 from mrpbench_core.api.planner import Promise
 from mrpbench_core.checking.paths import path_faults
 from mrpbench_core.model.planning.plan import Budget, PlanStatus
-from mrpbench_core.testing.instances.roadmaps import grid_of
-from mrpbench_core.testing.oracles.optimum import earliest_arrival
 
 BUDGET = Budget(wall_s=5, memory_bytes=1 << 30)
 

@@ -14,11 +14,11 @@ from mrpbench_planners_mapf.bounded import Ecbs, Eecbs
 from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_tests.instances.problems import movingai, problem_on
 from mrpbench_tests.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
+from mrpbench_tests.instances.roadmaps import grid_of
 from mrpbench_tests.instances.variations import with_plan_released
 from mrpbench_tests.oracles.judge import AMPLE, ask, compare_with_optimum
 
 from mrpbench_core.model.planning.plan import PlanStatus
-from mrpbench_core.testing.instances.roadmaps import grid_of
 
 seeds = st.integers(0, 2**32 - 1)
 bounds = st.sampled_from([1.0, 1.01, 1.05, 1.1, 1.2, 1.5, 2.0, 3.0, 5.0])

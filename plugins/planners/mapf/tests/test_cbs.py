@@ -11,13 +11,13 @@ from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.cbs_ta import ItaCbs
 from mrpbench_tests.instances.problems import movingai, problem_on
 from mrpbench_tests.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
+from mrpbench_tests.instances.roadmaps import grid_of
 from mrpbench_tests.instances.variations import with_late_release, with_plan_released
 from mrpbench_tests.oracles.judge import AMPLE, BUDGET, ask, compare_with_optimum
+from mrpbench_tests.oracles.optimum import least_sum_of_costs
 
 from mrpbench_core.model.planning.plan import PlanStatus
 from mrpbench_core.model.planning.problem import Rules
-from mrpbench_core.testing.instances.roadmaps import grid_of
-from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 
 TECHNIQUES = tuple(field.name for field in attrs.fields(Cbs) if isinstance(field.default, bool))
 ABLATIONS = [

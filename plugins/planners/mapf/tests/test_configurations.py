@@ -12,12 +12,12 @@ from mrpbench_planners_mapf.lns import Lns
 from mrpbench_planners_mapf.pibt import Pibt
 from mrpbench_tests.instances.problems import endless_swap, problem_on
 from mrpbench_tests.instances.random_problems import random_building_problem, random_corridor_problem
+from mrpbench_tests.instances.roadmaps import grid_of, roadmap, two_way
 from mrpbench_tests.instances.variations import with_releases
 from mrpbench_tests.oracles.judge import ask, compare_with_optimum
 
 from mrpbench_core.model.planning.plan import Budget, PlanStatus
 from mrpbench_core.model.planning.roadmap import Resource
-from mrpbench_core.testing.instances.roadmaps import grid_of, roadmap, two_way
 
 BUDGET = Budget(wall_s=100, memory_bytes=1 << 30, iterations=20)
 seeds = st.integers(0, 2**32 - 1)

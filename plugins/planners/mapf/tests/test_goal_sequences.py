@@ -9,11 +9,11 @@ from mrpbench_planners_mapf.pbs import Pbs
 from mrpbench_planners_mapf.prioritized import Prioritized
 from mrpbench_tests.instances.variations import with_plan_released
 from mrpbench_tests.oracles.judge import AMPLE, ask, compare_with_optimum
+from mrpbench_tests.oracles.optimum import least_sum_of_costs
 
 from mrpbench_core.model.planning.plan import PlanStatus
 from mrpbench_core.model.planning.problem import Feature, features_of
 from mrpbench_core.testing.drawing import problem
-from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 from mrpbench_core.testing.strategies import problems, roadmaps
 
 DRAWN = problems(

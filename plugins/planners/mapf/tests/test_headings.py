@@ -9,6 +9,7 @@ from mrpbench_planners_mapf.lacam import Lacam
 from mrpbench_planners_mapf.pbs import Pbs
 from mrpbench_planners_mapf.pibt import Pibt
 from mrpbench_planners_mapf.prioritized import Prioritized
+from mrpbench_tests.oracles.optimum import least_sum_of_costs
 
 from mrpbench_core.builtin.roadmaps.headings import with_headings
 from mrpbench_core.checking.plan import check_plan
@@ -16,7 +17,6 @@ from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.planning.plan import Budget, PlanStatus
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.testing.drawing import problem
-from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 
 BUDGET = Budget(wall_s=20, memory_bytes=2**30, iterations=100)
 SLOW = RobotModel(name="slow", footprint=[[0.1, 0], [-0.1, 0.1], [-0.1, -0.1]], max_speed=0.5, max_turn_rate=3.0)

@@ -16,11 +16,11 @@ from mrpbench_planners_mapf.pibt import Pibt
 from mrpbench_planners_mapf.prioritized import Prioritized
 from mrpbench_tests.instances.problems import endless_swap, movingai, problem_on
 from mrpbench_tests.instances.random_problems import random_grid_problem
+from mrpbench_tests.instances.roadmaps import grid_of, roadmap
 from mrpbench_tests.oracles.judge import answer_faults
+from mrpbench_tests.oracles.optimum import least_sum_of_costs
 
 from mrpbench_core.model.planning.plan import Budget, PlanStatus
-from mrpbench_core.testing.instances.roadmaps import grid_of, roadmap
-from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 
 PLANNERS = [Astar(), Prioritized(), Cbs()]
 COOPERATIVE = PLANNERS[1:]

@@ -8,11 +8,11 @@ from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.prioritized import Prioritized
 from mrpbench_tests.instances.problems import problem_on
 from mrpbench_tests.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
+from mrpbench_tests.instances.roadmaps import grid_of
 from mrpbench_tests.instances.variations import with_plan_released
 from mrpbench_tests.oracles.judge import AMPLE, BUDGET, ask
 
 from mrpbench_core.model.planning.plan import PlanStatus
-from mrpbench_core.testing.instances.roadmaps import grid_of
 
 seeds = st.integers(0, 2**32 - 1)
 orders = st.sampled_from(["index", "longest_first", "shortest_first", "random"])

@@ -11,11 +11,11 @@ import yaml
 from mrpbench_planners_mapf.cbs_ta import CbsTa, ItaCbs
 from mrpbench_planners_mapf.ecbs_ta import EcbsTa, ItaEcbs
 from mrpbench_tests.instances.problems import problem_on
+from mrpbench_tests.instances.roadmaps import grid_of
 from mrpbench_tests.oracles.judge import AMPLE, ask
 
 from mrpbench_core.model.planning.plan import Budget, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
-from mrpbench_core.testing.instances.roadmaps import grid_of
 
 SLACK_S = 5.0
 """Far more than the planners need; other work may share the machine."""

@@ -16,13 +16,13 @@ from mrpbench_planners_mapf.pibt import Pibt
 from mrpbench_planners_mapf.prioritized import Prioritized
 from mrpbench_tests.instances.problems import problem_on
 from mrpbench_tests.instances.random_problems import random_graph_problem, random_grid_problem, random_rules
+from mrpbench_tests.instances.roadmaps import grid_of
 from mrpbench_tests.instances.variations import with_late_release, with_resources
 from mrpbench_tests.oracles.judge import AMPLE, BUDGET, ask, compare_with_optimum
+from mrpbench_tests.oracles.optimum import least_sum_of_costs
 
 from mrpbench_core.model.planning.plan import PlanStatus
 from mrpbench_core.model.planning.roadmap import Resource
-from mrpbench_core.testing.instances.roadmaps import grid_of
-from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 
 BOUNDED = (Ecbs(w=1.0), Ecbs(w=1.5), Eecbs(w=1.0), Eecbs(w=1.05, flex=True), Eecbs(w=1.5, target=False))
 TECHNIQUES = ("heuristic", "target", "corridor", "rectangle", "precedence", "prioritize", "bypass")

@@ -14,6 +14,7 @@ from mrpbench_planners_mapf.lns import Lns
 from mrpbench_planners_mapf.pbs import Pbs
 from mrpbench_planners_mapf.prioritized import Prioritized
 from mrpbench_tests.oracles.judge import ask
+from mrpbench_tests.oracles.optimum import least_sum_of_costs
 
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.planning.conflicts import exclusions
@@ -21,7 +22,6 @@ from mrpbench_core.model.planning.plan import Budget, Path, Plan, PlanStatus
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.model.planning.roadmap import Resource
 from mrpbench_core.testing.drawing import problem
-from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
 from mrpbench_core.testing.strategies import grids, problems, roadmaps
 
 BUDGET = Budget(wall_s=1, memory_bytes=2**30, iterations=20)

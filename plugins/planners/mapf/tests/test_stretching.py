@@ -11,13 +11,13 @@ from mrpbench_planners_mapf.cbs import Cbs
 from mrpbench_planners_mapf.prioritized import Prioritized
 from mrpbench_planners_mapf.stretching import Stops, stretch
 from mrpbench_tests.instances.random_plans import random_plan, random_plan_with_resources
+from mrpbench_tests.instances.roadmaps import two_way_grid
 
 from mrpbench_core.checking.conflicts import find_conflicts
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.planning.plan import Budget, Plan, PlanStatus
 from mrpbench_core.referee.plans import Promises
 from mrpbench_core.testing.drawing import build, problem
-from mrpbench_core.testing.instances.roadmaps import two_way_grid
 
 CROSSING = ". a .\n b . B\n . A ."
 BUDGET = Budget(wall_s=1, memory_bytes=2**30, iterations=20)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 from mrpbench_core.model.planning.problem import Feature, Problem, Rules
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.testing.drawing import build
-from mrpbench_core.testing.instances.roadmaps import grid_of, roadmap
+from mrpbench_tests.instances.roadmaps import grid_of, roadmap
 
 
 def problem_on(

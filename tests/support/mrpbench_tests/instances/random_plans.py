@@ -10,9 +10,9 @@ from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.model.planning.problem import Feature, Problem, Rules
 from mrpbench_core.model.planning.roadmap import Resource, Roadmap
-from mrpbench_core.testing.drawing import build
-from mrpbench_core.testing.instances.roadmaps import timed_path, two_way, two_way_grid
+from mrpbench_core.testing.drawing import build, timed_path
 from mrpbench_tests.instances.random_problems import Random
+from mrpbench_tests.instances.roadmaps import two_way, two_way_grid
 
 NOTHING = timed_path([], [], [])
 

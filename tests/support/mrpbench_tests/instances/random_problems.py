@@ -9,8 +9,8 @@ import numpy as np
 
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Resource, Roadmap
-from mrpbench_core.testing.instances.roadmaps import grid_of, roadmap, two_way
 from mrpbench_tests.instances.problems import problem_on
+from mrpbench_tests.instances.roadmaps import grid_of, roadmap, two_way
 
 Random = np.random.Generator
 

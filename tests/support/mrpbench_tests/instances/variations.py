@@ -6,7 +6,7 @@ import numpy as np
 from mrpbench_core.model.planning.plan import Path, Plan
 from mrpbench_core.model.planning.problem import Feature, Problem, features_of
 from mrpbench_core.model.planning.roadmap import Resource
-from mrpbench_core.testing.instances.roadmaps import timed_path
+from mrpbench_core.testing.drawing import timed_path
 
 Random = np.random.Generator
 

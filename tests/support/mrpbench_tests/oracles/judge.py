@@ -8,7 +8,7 @@ from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.referee.plans import Promises, judge_plan
 from mrpbench_core.testing.faults import require
-from mrpbench_core.testing.oracles.optimum import least_sum_of_costs
+from mrpbench_tests.oracles.optimum import least_sum_of_costs
 
 ENDED_BY_LIMITS = (PlanStatus.TIMEOUT, PlanStatus.OUT_OF_MEMORY)
 BUDGET = Budget(wall_s=0.2, memory_bytes=1 << 30)

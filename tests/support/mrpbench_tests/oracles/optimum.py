@@ -14,8 +14,8 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 
 from mrpbench_core.model.planning.problem import Feature, Problem
-from mrpbench_core.testing.oracles.conflict_rules import ConflictRules, Uses
-from mrpbench_core.testing.oracles.robot_steps import DONE, RobotState, RobotStep, RobotSteps
+from mrpbench_tests.oracles.conflict_rules import ConflictRules, Uses
+from mrpbench_tests.oracles.robot_steps import DONE, RobotState, RobotStep, RobotSteps
 
 UNSUPPORTED = frozenset({Feature.HORIZON, Feature.SINCE})
 """The feature that this search does not support."""

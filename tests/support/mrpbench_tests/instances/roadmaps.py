@@ -1,12 +1,10 @@
 """Roadmaps of tests: from points and edges, or drawn as rows of text."""
 
 from collections.abc import Sequence
-from itertools import accumulate, pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mrpbench_core.model.planning.plan import Path
 from mrpbench_core.model.planning.roadmap import Roadmap
 
 STEPS = ((0, 1), (1, 0), (0, -1), (-1, 0))
@@ -60,17 +58,3 @@ def grid_of(rows: Sequence[str]) -> Roadmap:
         if (y + dy, x + dx) in index
     ]
     return roadmap([(x, -y) for y, x in cells], edges)
-
-
-def path_through(road: Roadmap, vertices: Sequence[int]) -> Path:
-    """A path through `vertices`, each edge in its duration; a repeated vertex is a wait of one tick."""
-    index = {(tail, head): edge for edge, (tail, head) in enumerate(road.edges.tolist())}
-    steps = [index[a, b] if a != b else -1 for a, b in pairwise(map(int, vertices))]
-    ticks = [1 if edge < 0 else int(road.duration[0, edge]) for edge in steps]
-    times = [0, *accumulate(ticks)]
-    return timed_path(steps, times[:-1], times[1:])
-
-
-def timed_path(edge: Sequence[int], enter: Sequence[int], leave: Sequence[int]) -> Path:
-    """A path from lists."""
-    return Path(edge=np.array(edge, np.int32), enter=np.array(enter, np.int64), leave=np.array(leave, np.int64))

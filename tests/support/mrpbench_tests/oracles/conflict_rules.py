@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from mrpbench_core.model.common.geometry import segment_distance
 from mrpbench_core.model.planning.conflicts import TOLERANCE
 from mrpbench_core.model.planning.problem import Feature, Problem
-from mrpbench_core.testing.oracles.robot_steps import ON, RobotState, RobotStep
+from mrpbench_tests.oracles.robot_steps import ON, RobotState, RobotStep
 
 Uses = tuple[tuple[int, ...], ...]
 """uses[robot][resource] = the number of moments, this one included, for which the robot still uses the resource."""

@@ -1,1 +1,0 @@
-"""Problems to plan: named ones, and ones drawn at random."""

@@ -1,1 +1,0 @@
-"""Oracles for problems, and the comparison of planners' results with them."""
