@@ -23,6 +23,7 @@ from mrpbench_localizers_amcl import Amcl
 from mrpbench_metrics_standard import execution, planning
 from mrpbench_planners_external.outputs import READERS as OUTPUTS
 from mrpbench_planners_external.outputs import UnreadableError
+from mrpbench_replay.write_page import write_page
 from mrpbench_worlds_standard.rmf import Rmf
 from mutation import Mutate, mutate_bytes, mutate_npy, mutate_text
 
@@ -43,7 +44,6 @@ from mrpbench_core.report.folder_comparison import compare_folders
 from mrpbench_core.report.html.page import write_report
 from mrpbench_core.report.parquet import write_parquet
 from mrpbench_core.report.reading.runs import read_runs
-from mrpbench_core.report.replay.page import write_page
 from mrpbench_core.report.report import make_report
 from mrpbench_core.report.tables.write import latex, markdown
 from mrpbench_core.store.folder import ResultsFolder

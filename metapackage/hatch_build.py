@@ -11,6 +11,7 @@ DEFAULT = (
     "mrpbench-analysis",
     "mrpbench-league",
     "mrpbench-publish",
+    "mrpbench-replay",
 )
 EXTRAS = {
     "dask": "mrpbench-executors-dask",

@@ -65,7 +65,7 @@ def test_a_world_without_a_raster_is_refused(tmp_path):
 
 
 @pytest.mark.parametrize("name", ["random-32-32-20", "den312d", "Berlin_1_256"])
-def test_the_published_instances_stand_on_free_cells(shared_data, corridor, name):
+def test_the_published_instances_stand_on_free_cells(shared_data, name):
     folder = shared_data / "movingai"
     lines = (folder / "maps" / f"{name}.map").read_text().splitlines()[4:]
     free = np.array([[cell in ".G" for cell in line] for line in lines])
