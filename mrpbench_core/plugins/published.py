@@ -20,7 +20,7 @@ _METRICS = (
 )
 _PLANNERS = (
     *("astar", "prioritized", "cbs", "ecbs", "eecbs", "cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"),
-    *("pbs", "pibt", "lacam", "lns", "token_passing", "example", "external"),
+    *("pbs", "pibt", "lacam", "lns", "token_passing", "example", "external", "rolling_horizon"),
 )
 _WORLDS = (
     *("rmf", "movingai", "ros_map", "barn", "dynabarn", "office", "warehouse", "airport", "household", "hospital"),
@@ -29,7 +29,7 @@ _WORLDS = (
 )
 PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-standard": {
-        "mrpbench.assigners": ("hungarian",),
+        "mrpbench.assigners": ("greedy", "hungarian", "insertion", "token_passing"),
         "mrpbench.controllers": ("dwb", "global_planner", "graceful", "mppi", "pure_pursuit", "rotation_shim", "rpp"),
         "mrpbench.critics": _CRITICS,
         "mrpbench.crowds": ("carts", "dynabarn", "orca", "scripted", "social_force"),
@@ -44,7 +44,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.simulators": ("planar",),
         "mrpbench.worlds": _WORLDS,
     },
-    "mrpbench-analysis": {"mrpbench.commands": ("analyze", "calibrate", "saturate")},
+    "mrpbench-analysis": {"mrpbench.commands": ("analyze", "calibrate", "compare", "saturate")},
     "mrpbench-publish": {"mrpbench.commands": ("publish", "site", "verify")},
     "mrpbench-replay": {"mrpbench.commands": ("view",)},
     "mrpbench-assigners-ortools": {"mrpbench.assigners": ("ortools_mip", "ortools_sat")},

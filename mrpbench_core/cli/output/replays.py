@@ -78,7 +78,7 @@ def make_replays(report: Report, page: Path, most: int, first: Sequence[int] = (
 
 
 def try_write_replay(results: Results, run_id: str, page: Path) -> bool:
-    """Write the replay of a recorded run; False if it ends before motion, and, with a warning, if it cannot be written."""
+    """Write the replay of a recorded run; False if nothing moves, and, with a warning, if it is damaged."""
     writer = replay_writer()
     if writer is None:
         return False

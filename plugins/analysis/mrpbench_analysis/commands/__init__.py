@@ -7,3 +7,4 @@ ANALYZE = Command(
 )
 CALIBRATE = Command("fit the durations of a roadmap to how a controller drives", "mrpbench_analysis.commands.calibrate")
 SATURATE = Command("find the rate of tasks that the fleets of a study can serve", "mrpbench_analysis.commands.saturate")
+COMPARE = Command("compare two results folders and test the differences", "mrpbench_analysis.commands.compare")

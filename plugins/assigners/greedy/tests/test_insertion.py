@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mrpbench_assigners_greedy.insertion import Insertion
 
-from mrpbench_core.builtin.assigners.insertion import Insertion
 from mrpbench_core.model.planning.assignment import QueueProblem
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.testing import AssignerConformance

@@ -2,8 +2,8 @@
 
 import attrs
 import numpy as np
+from mrpbench_assigners_greedy.token_passing import TokenPassing
 
-from mrpbench_core.builtin.assigners.token_passing import TokenPassing
 from mrpbench_core.model.planning.assignment import QueueProblem
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.testing import AssignerConformance

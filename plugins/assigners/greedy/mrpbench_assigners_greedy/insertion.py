@@ -5,8 +5,8 @@ from typing import ClassVar
 import attrs
 import numpy as np
 
+from mrpbench_assigners_greedy.greedy import Greedy
 from mrpbench_core.api.component import option
-from mrpbench_core.builtin.assigners.greedy import Greedy
 from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.planning.assignment import QueueProblem, Queues
 

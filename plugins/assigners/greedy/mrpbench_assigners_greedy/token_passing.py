@@ -7,8 +7,8 @@ with task swaps TPTS.
 import attrs
 import numpy as np
 
+from mrpbench_assigners_greedy.greedy import Greedy
 from mrpbench_core.api.component import option
-from mrpbench_core.builtin.assigners.greedy import Greedy
 from mrpbench_core.model.planning.assignment import QueueProblem, Queues
 from mrpbench_core.model.planning.problem import GoalSet
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from mrpbench_assigners_greedy.greedy import Greedy
 
 from mrpbench_core.api.assigner import AssignmentError
-from mrpbench_core.builtin.assigners.greedy import Greedy
 from mrpbench_core.model.planning.assignment import AssignmentProblem
 
 
