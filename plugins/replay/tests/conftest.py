@@ -10,6 +10,7 @@ import zlib
 import numpy as np
 import pytest
 from mrpbench_replay.write_page import write_page
+from mrpbench_tests.fixtures.parsed_page import parsed  # noqa: F401 - a fixture
 
 from mrpbench_core.store.recording import Recording, RecordingWriter
 
