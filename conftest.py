@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 from hypothesis import settings
+from mrpbench_tests.fixtures.corridor_run import corridor, new_plan, robot_model, run_context  # noqa: F401 - fixtures
 
 from mrpbench_core.cli.main import main
 from mrpbench_core.engine.processes import slots

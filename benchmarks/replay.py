@@ -15,6 +15,7 @@ from pathlib import Path as File
 
 import numpy as np
 import psutil
+from mrpbench_replay.write_page import write_page
 from selenium import webdriver
 
 from mrpbench_core.files.robot import load_robot
@@ -26,7 +27,6 @@ from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario, Task
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.model.worlds.world import Level, World
-from mrpbench_core.report.replay.page import write_page
 from mrpbench_core.store.recording import Recording, RecordingWriter
 
 SECONDS, RATE = 60, 10

@@ -11,6 +11,7 @@ DEFAULT = (
     "mrpbench-analysis",
     "mrpbench-league",
     "mrpbench-publish",
+    "mrpbench-replay",
     "mrpbench-search",
 )
 EXTRAS = {

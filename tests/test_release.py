@@ -63,7 +63,7 @@ OWN = {
     "mrpbench-core": ["mrpbench_core"],
     "mrpbench-native": ["mrpbench_native"],
     "mrpbench-standard": wheel_packages(ROOT / "plugins/pyproject.toml"),
-    **{f"mrpbench-{name}": [f"mrpbench_{name}"] for name in ("analysis", "league", "publish")},
+    **{f"mrpbench-{name}": [f"mrpbench_{name}"] for name in ("analysis", "league", "publish", "replay")},
 }
 
 

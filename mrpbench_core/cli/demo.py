@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.cli.output.progress import Printed
-from mrpbench_core.cli.output.replays import write_replay
+from mrpbench_core.cli.output.replays import replay_writer
 from mrpbench_core.cli.output.summary import plugins_line, print_summary
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.engine.study.options import StudyOptions
@@ -110,10 +110,11 @@ def _show(results: Results) -> None:
         print(f"recording  {_near(paths.recording)}")
         recording = results.recording(record["run_id"])
         replay = results.folder.path / "replay.html"
-        write_replay(recording, results, record, replay)
-        print(f"replay     {_near(replay)}")
+        if writer := replay_writer():
+            writer.write_replay(recording, results, record, replay)
+            print(f"replay     {_near(replay)}")
         report = results.folder.path / "report.html"
-        write_report(make_report([results]), report, {record["run_id"]: replay.name})
+        write_report(make_report([results]), report, {record["run_id"]: replay.name} if writer else {})
         print(f"report     {_near(report)}")
         try:
             print(f"picture    {_near(_draw(recording, results.folder.path / 'demo.png'))}")

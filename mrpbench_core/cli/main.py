@@ -27,8 +27,6 @@ COMMANDS = {
     "init": "write a commented configuration that runs",
     "run": "do the runs of a study that have no record yet",
     "report": "print tables of results with intervals, and write an HTML page",
-    "compare": "compare two results folders and test the differences",
-    "view": "write a replay of a run as an HTML page",
     "export": "write a stored run in another format",
     "scenario": "write the scenarios of a study to files, for publication",
     "world": "print the facts and faults of a map, draw it, convert it",

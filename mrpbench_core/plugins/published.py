@@ -20,7 +20,7 @@ _METRICS = (
 )
 _PLANNERS = (
     *("astar", "prioritized", "cbs", "ecbs", "eecbs", "cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"),
-    *("pbs", "pibt", "lacam", "lns", "token_passing", "example", "external"),
+    *("pbs", "pibt", "lacam", "lns", "token_passing", "example", "external", "rolling_horizon"),
 )
 _WORLDS = (
     *("rmf", "movingai", "ros_map", "barn", "dynabarn", "office", "warehouse", "airport", "household", "hospital"),
@@ -29,7 +29,7 @@ _WORLDS = (
 )
 PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-standard": {
-        "mrpbench.assigners": ("hungarian",),
+        "mrpbench.assigners": ("greedy", "hungarian", "insertion", "token_passing"),
         "mrpbench.controllers": ("dwb", "global_planner", "graceful", "mppi", "pure_pursuit", "rotation_shim", "rpp"),
         "mrpbench.critics": _CRITICS,
         "mrpbench.crowds": ("carts", "dynabarn", "orca", "scripted", "social_force"),
@@ -44,8 +44,9 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.simulators": ("planar",),
         "mrpbench.worlds": _WORLDS,
     },
-    "mrpbench-analysis": {"mrpbench.commands": ("analyze", "calibrate")},
+    "mrpbench-analysis": {"mrpbench.commands": ("analyze", "calibrate", "compare")},
     "mrpbench-publish": {"mrpbench.commands": ("publish", "site", "verify")},
+    "mrpbench-replay": {"mrpbench.commands": ("view",)},
     "mrpbench-search": {"mrpbench.commands": ("choose", "evidence", "saturate")},
     "mrpbench-assigners-ortools": {"mrpbench.assigners": ("ortools_mip", "ortools_sat")},
     "mrpbench-bridges-ros2": {"mrpbench.navigators": ("ros2",), "mrpbench.hooks": ("ros2",)},
@@ -69,6 +70,7 @@ EXTRAS = {
     "mrpbench-analysis": "",
     "mrpbench-league": "",
     "mrpbench-publish": "",
+    "mrpbench-replay": "",
     "mrpbench-search": "",
     "mrpbench-assigners-ortools": "ortools",
     "mrpbench-bridges-ros2": "ros2",

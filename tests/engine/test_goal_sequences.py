@@ -3,10 +3,10 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_assigners_greedy.insertion import Insertion
 from mrpbench_tests.execution.task_steps import TaskSteps, until_done
 from mrpbench_tests.instances.problems import grid_of, problem_on
 
-from mrpbench_core.builtin.assigners.insertion import Insertion
 from mrpbench_core.builtin.task_sources.listed import ListedStream
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.visits import Visits

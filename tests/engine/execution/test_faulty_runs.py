@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from mrpbench_replay.write_page import write_page
 
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.run import execute
-from mrpbench_core.report.replay.page import write_page
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_assigners_greedy.insertion import Insertion
 from mrpbench_tests.execution.task_steps import TaskSteps
 from mrpbench_tests.instances.problems import grid_of, problem_on
 
-from mrpbench_core.builtin.assigners.insertion import Insertion
 from mrpbench_core.builtin.task_sources.listed import ListedStream
 from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.model.planning.scenario import Task

@@ -3,10 +3,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mrpbench_planners_rolling_horizon.rolling_horizon import RollingHorizon
 from mrpbench_tests.instances.problems import grid_of, problem_on
 from mrpbench_tests.instances.roadmaps import roadmap
 
-from mrpbench_core.builtin.planners.rolling_horizon import RollingHorizon
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.engine.execution.commitments import commitments
 from mrpbench_core.model.planning.plan import Budget

@@ -7,12 +7,12 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from mrpbench_assigners_greedy.token_passing import TokenPassing as Choosing
 from mrpbench_planners_mapf.token_passing import TokenPassing
+from mrpbench_planners_rolling_horizon.rolling_horizon import RollingHorizon
 from mrpbench_tests.execution.task_steps import BUDGET, TaskSteps, until_done
 from mrpbench_tests.instances.problems import grid_of, problem_on
 
-from mrpbench_core.builtin.assigners.token_passing import TokenPassing as Choosing
-from mrpbench_core.builtin.planners.rolling_horizon import RollingHorizon
 from mrpbench_core.builtin.task_sources.listed import ListedStream
 from mrpbench_core.checking.well_formed import ill_formed
 from mrpbench_core.model.planning.plan import Paths

@@ -1,1 +1,0 @@
-"""Planners that need only the core: they make others serve where these alone do not."""
