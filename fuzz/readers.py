@@ -16,7 +16,6 @@ import numpy as np
 from bundles import bundles, read_bundle
 from containers import in_zip, mutate_database, mutate_mcap
 from examples import RUN, bags, example, recording, records, scenarios
-from mrpbench_analysis.folder_comparison import compare_folders
 from mrpbench_analysis.observed_run import Sampling, observe, observe_own
 from mrpbench_controllers_dwb.dwb import Dwb
 from mrpbench_exporters_rosbag2 import Rosbag2
@@ -41,6 +40,7 @@ from mrpbench_core.referee.measuring import describe
 from mrpbench_core.referee.plans import Promises
 from mrpbench_core.referee.verdict import judge
 from mrpbench_core.report.data import write_estimates
+from mrpbench_core.report.folder_comparison import compare_folders
 from mrpbench_core.report.html.page import write_report
 from mrpbench_core.report.parquet import write_parquet
 from mrpbench_core.report.reading.runs import read_runs

@@ -26,8 +26,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Compare the folders and print the result."""
-    from mrpbench_analysis.folder_comparison import compare_folders
     from mrpbench_core.report.data import PAIR_COLUMNS, pairs_of, write_rows
+    from mrpbench_core.report.folder_comparison import compare_folders
     from mrpbench_core.report.rules import RULES
     from mrpbench_core.report.tables.build import pairs_table
 

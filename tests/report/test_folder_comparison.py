@@ -3,9 +3,9 @@
 import sys
 
 import pytest
-from mrpbench_analysis.folder_comparison import compare_folders
 
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.report.folder_comparison import compare_folders
 
 
 @pytest.fixture
