@@ -33,7 +33,7 @@ class RunRecord:
     unexported: dict[str, str] = attrs.field(factory=dict)
     """The reason why an export failed, by the name of the format."""
     unarrived: dict[str, str] = attrs.field(factory=dict)
-    """Why robots did not arrive, by their names; only in runs with faults."""
+    """Why robots did not arrive, by their names; not with `tasks`."""
     reassigned: int = 0
     """The number of robots whose goal is not the one that the scenario gives them."""
     plan: dict[str, Any] = attrs.field(factory=dict)

@@ -81,9 +81,8 @@ def _failure(result: ExecutionResult, config: RunConfig, unarrived: Mapping[str,
     """Return the status of the run, None if every robot arrived."""
     if result.succeeded:
         return None
-    if unarrived:
-        each = [f"{name} {reason}" for name, reason in unarrived.items()]
-        causes = "; ".join(each[:3]) + (f"; … ({len(each)} robots)" if len(each) > 3 else "")
+    if config.faults and unarrived:
+        causes = _first(unarrived)
         if result.simulated_s < config.limits.execution:
             return RunEnded(RunStatus.EXECUTION_ABORTED, Stage.EXECUTION, f"not all robots can arrive: {causes}")
         late = f"not all robots arrived within {config.limits.execution:g} simulated seconds: {causes}"
@@ -94,4 +93,11 @@ def _failure(result: ExecutionResult, config: RunConfig, unarrived: Mapping[str,
         return RunEnded(RunStatus.EXECUTION_ABORTED, Stage.EXECUTION, said)
     missed = "not all robots arrived" if config.tasks is None else "no plan was found and no task was done"
     late = f"{missed} within {config.limits.execution:g} simulated seconds"
+    late += f": {causes}" if (causes := _first(unarrived)) else ""
     return RunEnded(RunStatus.GOALS_MISSED, Stage.EXECUTION, result.contradiction or late)
+
+
+def _first(unarrived: Mapping[str, str]) -> str:
+    """The reasons of the first three robots."""
+    each = [f"{name} {reason}" for name, reason in unarrived.items()]
+    return "; ".join(each[:3]) + (f"; … ({len(each)} robots)" if len(each) > 3 else "")

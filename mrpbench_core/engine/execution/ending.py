@@ -1,4 +1,4 @@
-"""Says why each robot did not arrive in an execution with a lasting fault."""
+"""Says why each robot did not arrive in an execution."""
 
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -37,6 +37,8 @@ class Ending:
     """bool[n]."""
     gave_up: Mapping[int, str]
     """Why robots gave up."""
+    mistaken: Collection[int] = ()
+    """Robots that are reported to have arrived, and stand elsewhere."""
     given_up: Collection[int] = ()
     """Robots whose tasks are given up."""
     cut_off: Collection[int] = ()
@@ -66,6 +68,8 @@ class Ending:
             return "stopped, and its task was given up"
         if robot in self.gave_up:
             return self._failure(robot)
+        if robot in self.mistaken:
+            return f"is reported to have arrived, and stands at {self._place(robot)}"
         if robot in self.cut_off:
             obstacles = [
                 f"{self.names[event.robot]} " * (event.robot >= 0) + event.what for event in self.faults.obstacles
@@ -85,7 +89,11 @@ class Ending:
         return ""
 
     def _failure(self, robot: int) -> str:
-        return f"gave up: {self.gave_up[robot]}".removesuffix(": ")
+        return f"gave up at {self._place(robot)}: {self.gave_up[robot]}".removesuffix(": ")
+
+    def _place(self, robot: int) -> str:
+        x, y = self.pose[robot, :2]
+        return f"({x:.1f}, {y:.1f})"
 
     def _chain(self, robot: int, waits: Mapping[int, list[int]], own: Mapping[int, str]) -> str:
         """The robot for which one waits, and the one at the end of the chain; a breadth-first search."""
@@ -104,7 +112,10 @@ class Ending:
                     queue.append(other)
         if waits[robot]:
             return f"waits for {names[waits[robot][0]]}"
-        return "was under way"
+        edge = self.plan.paths[robot].edge[int(self.motion.reached[robot]) :]
+        ends = self.problem.roadmap.position[self.problem.roadmap.edges[edge[edge >= 0]]]
+        left = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())
+        return f"was under way at {self._place(robot)}, with {left:.1f} m of its path left"
 
     def _waits_for(self, robot: int) -> list[int]:
         """The robots that may keep one from going on: in its way, in its door or lift, or due to pass before it."""

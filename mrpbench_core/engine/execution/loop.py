@@ -227,16 +227,17 @@ class ExecutionLoop(ControlLoop):
             f"{names[robot]}: {self._causes.get(robot, '')}".removesuffix(": ")
             for robot in gave_up.nonzero()[0].tolist()
         )
+        succeeded = bool(
+            (arrivals.arrived & self._visits.complete & ~self._reactions.astray).all()
+            if tasks is None
+            else not (gave_up.any() or tasks.unserved)
+        )
         return ExecutionResult(
-            succeeded=bool(
-                (arrivals.arrived & self._visits.complete & ~self._reactions.astray).all()
-                if tasks is None
-                else not (gave_up.any() or tasks.unserved)
-            ),
+            succeeded=succeeded,
             gave_up=causes,
             simulated_s=self._now,
             contradiction=arrivals.contradiction() or (self._visits.contradiction() if tasks is None else None),
-            unarrived=self._unarrived() if self._inputs.faults and tasks is None else {},
+            unarrived={} if succeeded or tasks is not None else self._unarrived(),
         )
 
     def _all_done(self, gave_up: Bool) -> bool:
@@ -278,6 +279,7 @@ class ExecutionLoop(ControlLoop):
             holders=self._facility_manager.holders,
             arrived=self._arrivals.arrived & ~self._reactions.astray,
             gave_up={robot: self._causes.get(robot, "") for robot in gave_up},
+            mistaken=set(np.flatnonzero(self._arrivals.mistaken).tolist()),
             given_up=set(np.flatnonzero(self._reactions.given_up).tolist()),
             cut_off=set(np.flatnonzero(self._reactions.cut_off).tolist()),
             dispatcher_waits_for=lambda robot: self._checks.waits_for(self._dispatcher.waits_for(robot)),
