@@ -12,7 +12,6 @@ DEFAULT = (
     "mrpbench-league",
     "mrpbench-publish",
     "mrpbench-replay",
-    "mrpbench-search",
 )
 EXTRAS = {
     "dask": "mrpbench-executors-dask",
@@ -25,6 +24,7 @@ EXTRAS = {
     "pybullet": "mrpbench-simulators-pybullet",
     "ros2": "mrpbench-bridges-ros2",
     "rosbag2": "mrpbench-exporters-rosbag2",
+    "search": "mrpbench-search",
     "statistics": "mrpbench-core[statistics]",
 }
 

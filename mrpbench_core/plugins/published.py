@@ -71,11 +71,11 @@ EXTRAS = {
     "mrpbench-league": "",
     "mrpbench-publish": "",
     "mrpbench-replay": "",
-    "mrpbench-search": "",
     "mrpbench-assigners-ortools": "ortools",
     "mrpbench-bridges-ros2": "ros2",
     "mrpbench-executors-dask": "dask",
     "mrpbench-exporters-rosbag2": "rosbag2",
+    "mrpbench-search": "search",
     "mrpbench-simulators-mujoco": "mujoco",
     "mrpbench-simulators-pybullet": "pybullet",
 }
