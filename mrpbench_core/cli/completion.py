@@ -5,7 +5,9 @@ import importlib
 from collections.abc import Iterable
 from shlex import quote
 
+from mrpbench_core.cli.command import find, summaries
 from mrpbench_core.cli.main import COMMANDS
+from mrpbench_core.files.errors import InputError
 
 _SCRIPT = """\
 # Completion of mrpbench for bash; zsh needs `autoload -U +X bashcompinit && bashcompinit` before it.
@@ -36,16 +38,20 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(_: argparse.Namespace) -> int:
     """Print the script."""
+    modules = {name: importlib.import_module(f"mrpbench_core.cli.{name.replace('-', '_')}") for name in COMMANDS}
+    for name, summary in summaries(COMMANDS):
+        if not isinstance(summary, InputError):
+            modules[name] = find(name, COMMANDS)[1]
     cases = []
-    for command in COMMANDS:
+    for command, module in modules.items():
         parser = argparse.ArgumentParser(prog=command)
-        importlib.import_module(f"mrpbench_core.cli.{command.replace('-', '_')}").configure(parser)
+        module.configure(parser)
         actions = parser._actions
         options = [action for action in actions if action.option_strings]
         chosen = [action for action in options if action.choices]
         cases += [_case(f"{command} {one.option_strings[-1]} ", map(str, one.choices or ())) for one in chosen]
         cases.append(_case(f"{command} ", (action.option_strings[-1] for action in options), "*' -'*"))
-    print(_SCRIPT.format(commands=quote(" ".join(COMMANDS)), cases="\n".join(cases)), end="")
+    print(_SCRIPT.format(commands=quote(" ".join(modules)), cases="\n".join(cases)), end="")
     return 0
 
 
