@@ -175,7 +175,7 @@ class WalkingSession(CrowdSession):
 
     def _give_way(self, dt: float, place: Float, velocity: Float, arrived: Bool, discs: Float, radius: Float) -> None:
         """Let people who are blocked look for another way, past the others and the `discs` f8[k,2]."""
-        for person in self._detours.update(dt, place, velocity.any(axis=1), arrived).tolist():
+        for person in self._detours.update(dt, place, np.hypot(*velocity.T) > 0, arrived).tolist():
             others = np.delete(place, person, axis=0)
             self._detours.begin(
                 person,
