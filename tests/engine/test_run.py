@@ -1,6 +1,7 @@
 """Whole runs in this process: every way to end, and the same result again."""
 
 import hashlib
+import re
 from pathlib import Path
 
 import numpy as np
@@ -194,7 +195,11 @@ def test_too_little_time_misses_goals(tmp_path):
     record, _ = execute_first(tmp_path, limits={"execution": "1 s"})
     assert record["status"] == "goals_missed"
     assert record["metrics"]["execution.success"] is False
-    assert record["error"]["message"] == "not all robots arrived within 1 simulated seconds"
+    assert record["error"]["message"].startswith("not all robots arrived within 1 simulated seconds: robot_0 was under")
+    assert record["unarrived"].keys() == {"robot_0", "robot_1", "robot_2"}
+    assert re.fullmatch(
+        r"was under way at \([\d.-]+, [\d.-]+\), with [\d.]+ m of its path left", record["unarrived"]["robot_0"]
+    )
 
 
 @pytest.mark.parametrize(("keep", "kept"), [("all", True), ("failed", False), ("none", False)])

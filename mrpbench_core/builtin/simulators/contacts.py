@@ -73,7 +73,8 @@ class Discs:
         by_mover = np.zeros(len(centres), bool)
         by_mover[self._first[close[~self._both[close]]]] = True
         against = by_mover[owner] & (_overlap(centres + shift, self._radii, owner, walls) > _TOUCH)
-        shift[owner[against]] = (before - centres)[owner[against]]
+        pushed = owner[against]  # movers that are not there yet are infinitely far away
+        shift[pushed] = before[pushed] - centres[pushed]
         deep = _overlap(centres, self._radii, owner, walls)
         inside = np.flatnonzero(deep > _TOUCH)
         # A robot in several walls is pushed out of the one it is deepest in; the next rounds handle the others.

@@ -37,6 +37,8 @@ class Ending:
     """bool[n]."""
     gave_up: Mapping[int, str]
     """Why robots gave up."""
+    driving: Collection[int] = ()
+    """Robots that drive or turn."""
     mistaken: Collection[int] = ()
     """Robots that are reported to have arrived, and stand elsewhere."""
     given_up: Collection[int] = ()
@@ -86,7 +88,7 @@ class Ending:
             here, tail = np.array(blockage.place), np.array([self.pose[robot, :2]])
             if approaches(here, tail, ends[1:], reach)[0]:
                 return f"stands before {blockage.what.removeprefix('the ')}"
-        return ""
+        return self._under_way(robot) if robot in self.driving else ""
 
     def _failure(self, robot: int) -> str:
         return f"gave up at {self._place(robot)}: {self.gave_up[robot]}".removesuffix(": ")
@@ -112,6 +114,9 @@ class Ending:
                     queue.append(other)
         if waits[robot]:
             return f"waits for {names[waits[robot][0]]}"
+        return self._under_way(robot)
+
+    def _under_way(self, robot: int) -> str:
         edge = self.plan.paths[robot].edge[int(self.motion.reached[robot]) :]
         ends = self.problem.roadmap.position[self.problem.roadmap.edges[edge[edge >= 0]]]
         left = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())

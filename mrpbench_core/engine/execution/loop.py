@@ -279,6 +279,7 @@ class ExecutionLoop(ControlLoop):
             holders=self._facility_manager.holders,
             arrived=self._arrivals.arrived & ~self._reactions.astray,
             gave_up={robot: self._causes.get(robot, "") for robot in gave_up},
+            driving=set(np.flatnonzero((np.abs(self._state.twist) > REST).any(axis=1)).tolist()),
             mistaken=set(np.flatnonzero(self._arrivals.mistaken).tolist()),
             given_up=set(np.flatnonzero(self._reactions.given_up).tolist()),
             cut_off=set(np.flatnonzero(self._reactions.cut_off).tolist()),

@@ -320,7 +320,7 @@ def test_robots_stand_before_a_blocked_place_until_it_is_free(tmp_path):
 def test_a_robot_that_gives_up_while_it_is_stopped_says_both(tmp_path):
     stop = {"events": [{"kind": "stop", "robot": 0, "at": 2, "lasts": 300}]}
     record, _ = aisle(tmp_path, faults=stop, navigator={"max_recoveries": 0}, limits={"execution": 20})
-    assert record.unarrived["robot_0"] == "stopped at 2.0 s and gave up: no_progress"
+    assert record.unarrived["robot_0"] == "stopped at 2.0 s and gave up at (4.8, 1.2): no_progress"
 
 
 def test_a_robot_that_stops_at_its_goal_has_arrived(tmp_path):
