@@ -25,8 +25,9 @@ WRITTEN = "*`scripts/metrics_page.py` writes this page from the descriptions of 
 INDEX = f"""\
 # Metrics
 {WRITTEN}
-`planning` and `execution` are measured by default. A configuration names other metrics, with options where the
-defaults do not fit:
+`planning` and `execution` are measured by default, and sections add their own: `tasks` adds `tasks`, `crowds` adds
+`people`, `delays` and `faults` add `delay` where there are no tasks, and `delays.draws` adds `draws`. A configuration
+names other metrics, with options where the defaults do not fit:
 ```yaml
 metrics: [planning, execution, delay, {{plugin: stops, least: 1 s}}]
 ```
