@@ -32,6 +32,7 @@ RUNS_PER_PLANNER = {
     "floor_grid": 10,
     "rates": 90,
     "batches": 80,
+    "bodies": 324,
 }
 """Runs of each planner that is installed."""
 PLANNERS = {

@@ -60,10 +60,10 @@ def _faults(run: FinishedRun, rate: float, actuation: float, apart: bool) -> Ite
     pushed = _pushed(run, time, len(context.fleet))
     excess = EXCESS + 4 * actuation
     yield from _speeds(time, truth, pushed, context.fleet, excess)
-    yield from _accelerations(time, truth, pushed, context.fleet)
     yield from _walls(context.world, names, time, truth[..., :2], level)
     yield from _levels(context.world, names, time, truth[..., :2], level)
     yield from _overlaps(run, time, truth, level, () if apart else context.movers)
+    yield from _accelerations(time, truth, pushed, context.fleet)
 
 
 def _sampling(time: Float, rate: float, period: float) -> Iterator[str]:

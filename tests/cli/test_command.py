@@ -101,7 +101,8 @@ def test_a_command_of_a_distribution_that_is_not_installed_names_it(mrpbench, mo
     monkeypatch.setattr(metadata, "entry_points", lambda **_: ())
     owners = {"analyze": "analysis", "choose": "search", "saturate": "search"}
     owner = f"mrpbench-{owners.get(name, 'publish')}"
-    said = f"no command is called {name!r} ({owner} has it: `pip install mrpbench`)\n"
+    package = "'mrpbench[search]'" if owner == "mrpbench-search" else "mrpbench"
+    said = f"no command is called {name!r} ({owner} has it: `pip install {package}`)\n"
     assert mrpbench(name, "x") == (2, "", said)
     assert f"\n  {name} " not in mrpbench("--help")[1]
 

@@ -69,7 +69,7 @@ def test_fixed_joints_on_the_way_to_a_wheel_are_followed_with_their_turns(tmp_pa
 def test_an_origin_turns_about_fixed_axes_first_by_roll_then_pitch_then_yaw():
     turns = (0.4, -0.9, 2.0)
     joint = ET.fromstring(f'<joint><origin xyz="1 2 3" rpy="{turns[0]} {turns[1]} {turns[2]}"/></joint>')
-    frame = urdf._origin(joint, Path("cart.urdf"))
+    frame = urdf.joint_frame(joint, Path("cart.urdf"))
     np.testing.assert_allclose(frame[:3, :3], Rotation.from_euler("xyz", turns).as_matrix(), atol=1e-12)
     assert frame[:, 3].tolist() == [1, 2, 3, 1]
 

@@ -25,8 +25,8 @@ Tick Distances::paged(int vertex) const {
 void Distances::set_paged(int vertex, Tick distance, Limits& limits) {
   std::unique_ptr<Page>& page = pages_[static_cast<std::size_t>(vertex / kPage)];
   if (!page) {
-    limits.charge(sizeof(Page));
-    bytes_ += sizeof(Page);
+    limits.charge(sizeof(Page) + kHeader);
+    bytes_ += sizeof(Page) + kHeader;
     page = std::make_unique<Page>();
     page->base = distance;
     page->beyond.fill(kUnknown);
@@ -42,8 +42,9 @@ void Distances::set_paged(int vertex, Tick distance, Limits& limits) {
 }
 
 void Distances::widen(Page& page, Limits& limits) {
-  limits.charge(kPage * sizeof(Tick));
-  bytes_ += kPage * sizeof(Tick);
+  constexpr std::size_t kBytes = kPage * sizeof(Tick) + sizeof(std::vector<Tick>) + 2 * kHeader;
+  limits.charge(kBytes);
+  bytes_ += kBytes;
   auto wide = std::make_unique<std::vector<Tick>>(kPage, kForever);
   for (std::size_t at = 0; at < page.beyond.size(); ++at) {
     if (page.beyond[at] != kUnknown) (*wide)[at] = page.base + page.beyond[at] * unit_;

@@ -222,7 +222,7 @@ def test_robots_arrive_when_they_do_in_the_recording_and_also_without_one(contex
     reached = np.concatenate([chunk["reached"] for chunk in chunks if "reached" in chunk])
     time = np.concatenate([chunk["time"] for chunk in chunks if "time" in chunk])
     last = np.array([route.last_move for route in context.routes])
-    np.testing.assert_array_equal(loops[0].arrival, time[(reached >= last).argmax(axis=0)])
+    np.testing.assert_array_equal(loops[0].arrival[0], time[(reached >= last).argmax(axis=0)])
 
 
 def test_draws_mean_nothing_with_physics():

@@ -90,7 +90,7 @@ def test_a_dispatcher_that_releases_more_in_many_executions():
     def update(self, now, view):
         return Orders(released=np.minimum(self.length, view.reached + 1))
 
-    changes = {"repeated": lambda self, executions: Everything(executions, self.length), "update": update}
+    changes = {"batch": lambda self, executions: Everything(executions, self.length), "update": update}
     found = failed_checks(suite_for(session(**changes)))
     assert "releases other moves" in found["many executions at once are those of each session"]
 

@@ -29,7 +29,8 @@ class Distances {
   void charge(Limits& limits) const { limits.charge(bytes_); }
 
  private:
-  static constexpr int kPage = 128;  // vertices with near numbers lie near one another
+  static constexpr std::size_t kHeader = 16;  // bytes that an allocation takes beside its content
+  static constexpr int kPage = 128;           // vertices with near numbers lie near one another
   static constexpr std::uint8_t kUnknown = 255;
 
   struct Page {
