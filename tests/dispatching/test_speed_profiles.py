@@ -16,6 +16,7 @@ from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.config.delays import Delays
 from mrpbench_core.dispatching.speed_profiles import Network, SpeedProfiles, first_slope, late_times, latest_arrivals
 from mrpbench_core.engine.execution.delays import DrawnDelays
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.testing.drawing import build, path_through
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
@@ -123,7 +124,7 @@ def arrivals(dispatcher, problem, plan, delays, seed):
     """When the robots of an execution that keep their limits arrive, in seconds."""
     session = dispatcher.start(problem, plan)
     executor = BatchExecutor(problem, plan, 0.25, np.random.default_rng(seed))
-    drawn = DrawnDelays(delays, len(problem), seed, 0, [0])
+    drawn = DrawnDelays(delays, len(problem), Seeds(seed), [0])
     while not executor.drained.all():
         orders = session.update(executor.now * executor.period, executor.view(0, 0, ()))
         groups = [(number, 0, *member) for number, group in enumerate(orders.in_step) for member in group]

@@ -17,7 +17,7 @@ from mrpbench_core.engine.execution.loop_inputs import LoopComponents, LoopInput
 from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.engine.execution.progress import ExecutionProgress
 from mrpbench_core.engine.execution.resources import ExecutionError
-from mrpbench_core.engine.seeds import seed_of
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.engine.stage import RunInputs
 from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.model.runs.run import RunContext
@@ -39,14 +39,14 @@ class PhysicalExecution(PlannedExecution):
 
     def _run(self, outputs: Outputs) -> ExecutionResult:
         inputs, context, recorder = self._inputs, self.context, outputs.recorder()
-        config, seeds = inputs.config, (inputs.config.seed, inputs.config.repeat)
+        config, seeds = inputs.config, Seeds(inputs.config.seed, inputs.config.repeat)
         assert config.simulator is not None
         components = LoopComponents.of(config)
         replanner = replanner_of(inputs, context, self._router)
         tasks = None if self._stream is None else tasks_of(config, context, self._stream, recorder)
         weighed = config.recording.trajectories
         radii = [mover.radius for mover in self._crowds.members]
-        placed = self._poses.copy(), seed_of(*seeds, "simulator"), context.period, radii
+        placed = self._poses.copy(), seeds.seed_of("simulator"), context.period, radii
         opened = config.simulator.open(context.world, context.fleet, *placed, levels=self._levels.copy())
         result: ExecutionResult | None = None
         with check_returned(config.simulator, opened, Simulation) as simulation:
@@ -59,7 +59,7 @@ class PhysicalExecution(PlannedExecution):
                     crowds=self._crowds,
                     simulation=simulation,
                     placed=self._poses,
-                    noise=Disturbances(config.noise, context.fleet, self._poses, context.period, *seeds),
+                    noise=Disturbances(config.noise, context.fleet, self._poses, context.period, seeds),
                     delays=self._draws().stream(),
                     faults=self._faults,
                     evaluations=None if weighed is None else Evaluations(weighed, len(context.fleet)),

@@ -12,7 +12,7 @@ import attrs
 from mrpbench_core.api.planner import Planner, PlannerSession
 from mrpbench_core.checking.plan_result import result_fault
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.engine.seeds import seed_of
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.engine.stage import RunEnded
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.planning.plan import Budget, PlanResult, PlanStatus
@@ -76,7 +76,7 @@ def budget_of(config: RunConfig) -> Budget:
         wall_s=limits.planning,
         memory_bytes=max(1, int(0.9 * limits.memory) - _resident()),
         iterations=limits.iterations,
-        seed=seed_of(config.seed, config.repeat, "planner") >> 32,  # 31 bits, which any program reads
+        seed=Seeds(config.seed, config.repeat).seed_of("planner") >> 32,  # 31 bits, which any program reads
     )
 
 

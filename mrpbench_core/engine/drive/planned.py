@@ -11,6 +11,7 @@ from mrpbench_core.engine.execution.draws import Draws
 from mrpbench_core.engine.execution.faults import FaultState, draw_faults
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.worst_case import Adversary
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.engine.stage import RunInputs
 from mrpbench_core.model.execution.motion import Event
 from mrpbench_core.model.runs.routing import start_poses
@@ -39,8 +40,7 @@ class PlannedExecution(TimedExecution):
             context.world,
             context.fleet,
             context.period,
-            config.seed,
-            config.repeat,
+            Seeds(config.seed, config.repeat),
             [event for event in self._faults.events if event.kind == "blocked"],
             poses=self._poses,
             levels=self._levels,
@@ -63,13 +63,14 @@ class PlannedExecution(TimedExecution):
         assert plan is not None
         attack = settings.worst_case * settings.tick
         adversary = Adversary(context.problem, plan, attack) if attack else None
-        return Draws(settings, len(context.fleet), (config.seed, config.repeat), adversary)
+        return Draws(settings, len(context.fleet), Seeds(config.seed, config.repeat), adversary)
 
 
 def _faults(config: RunConfig, context: RunContext) -> FaultState:
     """The faults of the run."""
     roadmap, robots = context.problem.roadmap, len(context.fleet)
     names = [resource.name for resource in roadmap.resources if resource.kind != "mutex"]
-    seeds = (config.seed, config.repeat)
-    events = draw_faults(config.faults, robots, roadmap, names, config.limits.execution, *seeds)
+    events = draw_faults(
+        config.faults, robots, roadmap, names, config.limits.execution, Seeds(config.seed, config.repeat)
+    )
     return FaultState(config.faults, events, robots)

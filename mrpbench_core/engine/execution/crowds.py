@@ -13,7 +13,7 @@ from mrpbench_core.checking.recording import LARGEST
 from mrpbench_core.engine.execution.blockages import Blockages
 from mrpbench_core.engine.execution.faults import FaultEvent
 from mrpbench_core.engine.execution.gait import Gait
-from mrpbench_core.engine.seeds import seed_of
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.model.common.arrays import Float, Int16, Int32
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.movers import JUMP, LARGEST_RADIUS, LONGEST_KIND, CrowdView, Mover, Movers
@@ -44,8 +44,7 @@ class Crowds:
         world: World,
         fleet: Fleet,
         period: float,
-        seed: int,
-        repeat: int,
+        seeds: Seeds,
         blocked: Sequence[FaultEvent] = (),
         *,
         poses: Float,
@@ -65,18 +64,18 @@ class Crowds:
         self.movers = self._joined([])
         """Where the members are now."""
         if crowds:
-            self._start(crowds, world, fleet, (seed, repeat), _at_rest(world, poses, levels))
+            self._start(crowds, world, fleet, seeds, _at_rest(world, poses, levels))
         self._unmet = len(self.members) if apart else 0
         if blocked:
             self._add(Blockages(blocked, fleet))
         self._gait = Gait(self.members)
         self._opened: set[str] = set()
 
-    def _start(self, crowds: Sequence[Crowd], world: World, fleet: Fleet, seeds: tuple[int, int], state: State) -> None:
+    def _start(self, crowds: Sequence[Crowd], world: World, fleet: Fleet, seeds: Seeds, state: State) -> None:
         """Start the sessions in turn; each sees the robots and the members of those before."""
         for index, crowd in enumerate(crowds):
             seen = CrowdView(state=state, others=self.movers, radius=self._radius)
-            self._add(crowd.start(world, fleet, seed_of(*seeds, f"crowd {index}"), seen))
+            self._add(crowd.start(world, fleet, seeds.seed_of(f"crowd {index}"), seen))
 
     def _add(self, session: CrowdSession) -> None:
         if not isinstance(session, CrowdSession):

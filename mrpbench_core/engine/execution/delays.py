@@ -12,7 +12,7 @@ import numpy as np
 from mrpbench_core.config.delays import Delays
 from mrpbench_core.engine.execution.stops import NEVER, Stop, stops
 from mrpbench_core.engine.execution.worst_case import Adversary
-from mrpbench_core.engine.seeds import streams
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.execution.motion import Event
 
@@ -23,12 +23,12 @@ _AT_ONCE = 64
 class DrawnDelays:
     """What is drawn of the delays of `draws` executions: k robots, those of one execution after those of another."""
 
-    def __init__(self, settings: Delays, robots: int, seed: int, repeat: int, draws: Sequence[int]) -> None:
+    def __init__(self, settings: Delays, robots: int, seeds: Seeds, draws: Sequence[int]) -> None:
         count = robots * len(draws)
         self.settings = settings
-        self._speeds = streams(seed, repeat, "delays.speed", robots, draws) if settings.speed else []
+        self._speeds = seeds.streams("delays.speed", robots, draws) if settings.speed else []
         self._factor: Float = np.ones((count, 0))
-        self._stops = stops(settings, robots, seed, repeat, draws) if settings.p_delay else None
+        self._stops = stops(settings, robots, seeds, draws) if settings.p_delay else None
         self._begin: Int = np.full(count, NEVER)
         """The tick i8[k] in which each robot's next stop begins."""
         self._end: Int = np.full(count, NEVER)
@@ -92,8 +92,7 @@ class DelayStream:
     Args:
         settings: of the delays.
         robots: n.
-        seed: of the run.
-        repeat: of the run.
+        seeds: of the run.
         draws: numbers of the d draws. Robot i of draw j is number j n + i.
         adversary: as it is before an execution; none by default.
     """
@@ -102,14 +101,13 @@ class DelayStream:
         self,
         settings: Delays,
         robots: int,
-        seed: int,
-        repeat: int,
+        seeds: Seeds,
         draws: Sequence[int] = (0,),
         adversary: Adversary | None = None,
     ) -> None:
         self.settings, self.executions = settings, len(draws)
         self._adversaries = [copy.deepcopy(adversary) for _ in draws] if adversary else []
-        self._drawn = DrawnDelays(settings, robots, seed, repeat, draws)
+        self._drawn = DrawnDelays(settings, robots, seeds, draws)
         self._robots: Int = np.arange(robots)
         self.forget = self._drawn.forget
         self.speed = self._drawn.speed

@@ -8,6 +8,7 @@ from mrpbench_core.engine.execution.faults import FaultState
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.worst_case import Adversary
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.model.common.arrays import Float
 
 _AT_ONCE = 1 << 14
@@ -20,16 +21,16 @@ class Draws:
     Args:
         settings: of the delays.
         robots: their number.
-        seeds: seed and repeat of the run.
+        seeds: of the run.
         adversary: as it is before an execution.
     """
 
-    def __init__(self, settings: Delays, robots: int, seeds: tuple[int, int], adversary: Adversary | None) -> None:
+    def __init__(self, settings: Delays, robots: int, seeds: Seeds, adversary: Adversary | None) -> None:
         self._settings, self._robots, self._seeds, self._adversary = settings, robots, seeds, adversary
 
     def stream(self, *draws: int) -> DelayStream:
         """The delays of some draws, by default of the first one."""
-        return DelayStream(self._settings, self._robots, *self._seeds, draws or (0,), self._adversary)
+        return DelayStream(self._settings, self._robots, self._seeds, draws or (0,), self._adversary)
 
     def execute(self, schedule: Schedule, faults: FaultState, limit_s: float) -> Iterator[tuple[Float, Float]]:
         """Execute the draws after the first one, as many at once as the dispatcher allows.

@@ -11,7 +11,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.config.faults import OF_ROBOTS, Fault, Faults
-from mrpbench_core.engine.seeds import stream
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Bool, Float, Int32
 from mrpbench_core.model.common.geometry import point_segment_distance
@@ -57,7 +57,7 @@ class FaultEvent:
 
 
 def draw_faults(
-    settings: Faults, robots: int, roadmap: Roadmap, facilities: Sequence[str], limit_s: float, seed: int, repeat: int
+    settings: Faults, robots: int, roadmap: Roadmap, facilities: Sequence[str], limit_s: float, seeds: Seeds
 ) -> tuple[FaultEvent, ...]:
     """Return the faults that begin before `limit_s` simulated seconds, by time.
 
@@ -67,8 +67,7 @@ def draw_faults(
         roadmap: at whose vertices blocked places are drawn.
         facilities: names of the doors and lifts that can fail.
         limit_s: of the execution.
-        seed: of the run.
-        repeat: of the run.
+        seeds: of the run.
 
     Raises:
         InputError: an entry names a robot, door, lift or level that does not exist.
@@ -84,9 +83,9 @@ def draw_faults(
             raise InputError(f"{where}.level: must be below {known}, got {entry.level}")
         subject = _subject(entry, count, facilities, where)
         if subject is None and entry.at is not None and count:
-            subject = int(stream(seed, repeat, f"faults.{number}.subject").integers(count))
+            subject = int(seeds.stream(f"faults.{number}.subject").integers(count))
         for index in range(count) if subject is None else (subject,):
-            random = stream(seed, repeat, f"faults.{number}", index)
+            random = seeds.stream(f"faults.{number}", index)
             for begin, end in _times(entry, limit_s, random):
                 found.append(_event(entry, index, begin, end, facilities, roadmap, random))
     return tuple(sorted(found, key=lambda event: (event.begin, event.robot, event.facility)))

@@ -24,7 +24,6 @@ from mrpbench_core.engine.execution.recorder import Recorder, Sample
 from mrpbench_core.engine.execution.replanning import Revision
 from mrpbench_core.engine.execution.standstill import Standstill
 from mrpbench_core.engine.execution.visits import Visits
-from mrpbench_core.engine.seeds import seed_of
 from mrpbench_core.model.common.arrays import Bool
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.observation import FleetObservation
@@ -76,7 +75,7 @@ class ExecutionLoop(ControlLoop):
         dispatcher, localizer, navigator = components.dispatcher, components.localizer, components.navigator
         dispatching = dispatcher.start(context.problem, plan)
         self._dispatcher = check_returned(dispatcher, dispatching, DispatcherSession)
-        seed = seed_of(*inputs.seeds, "localizer")
+        seed = inputs.seeds.seed_of("localizer")
         localizing = localizer.start(context.fleet, context.world, self._state.pose, seed)
         self._localizer = check_returned(localizer, localizing, LocalizerSession)
         navigating = navigator.start(
@@ -85,7 +84,7 @@ class ExecutionLoop(ControlLoop):
             context.routes,
             observed(components.controller, inputs.evaluations) if inputs.evaluations else components.controller,
             context.period,
-            seed_of(*inputs.seeds, "navigator"),
+            inputs.seeds.seed_of("navigator"),
         )
         self._navigator = check_returned(navigator, navigating, NavigatorSession)
         self._facility_manager = FacilityManager(context.world, context.problem, plan)

@@ -21,6 +21,7 @@ from mrpbench_core.engine.execution.noise import Disturbances
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.replanning import Replanner
 from mrpbench_core.engine.execution.task_manager import TaskManager
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.run import RunContext
 from mrpbench_core.plugins.contract import is_of
@@ -107,8 +108,8 @@ class LoopInputs:
     """Simulated seconds after which the execution ends."""
     goal_tolerance: float
     """Metres from its goal within which a robot has arrived."""
-    seeds: tuple[int, int]
-    """Seed and repeat of the run."""
+    seeds: Seeds
+    """Of the run."""
     hooks: Hooks
     """Called after every control period; see `mrpbench_core.api.hooks`."""
     progress: Callable[[float, NDArray[np.bool_]], None] = lambda now, arrived: None  # noqa: ARG005

@@ -9,7 +9,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.config.settings import Noise
-from mrpbench_core.engine.seeds import stream
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.common.poses import wrapped
@@ -29,11 +29,9 @@ class Disturbances:
     robots", IEEE Trans. Robotics and Automation 12, 1996). Heading errs with it, the more the closer the wheels are.
     """
 
-    def __init__(self, size: Noise, fleet: Fleet, start_poses: Float, period: float, seed: int, repeat: int) -> None:
-        robots = range(len(fleet))
-
+    def __init__(self, size: Noise, fleet: Fleet, start_poses: Float, period: float, seeds: Seeds) -> None:
         def streams(name: str) -> list[np.random.Generator]:
-            return [stream(seed, repeat, name, robot) for robot in robots]
+            return seeds.streams(name, len(fleet))
 
         self._size, self._period = size, period
         self._half_axle = np.array([robot.wheel_separation / 2 for robot in fleet.robots])

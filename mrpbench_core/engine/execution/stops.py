@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from mrpbench_core.config.delays import Delays
-from mrpbench_core.engine.seeds import streams
+from mrpbench_core.engine.seeds import Seeds
 
 Stop = tuple[int, int]
 """A robot stops from the beginning of the first tick to the beginning of the second one."""
@@ -27,20 +27,19 @@ class Stops(Protocol):
         """The stop of each of these `robots` that follows the one it was given before."""
 
 
-def stops(settings: Delays, robots: int, seed: int, repeat: int, draws: Sequence[int]) -> Stops:
+def stops(settings: Delays, robots: int, seeds: Seeds, draws: Sequence[int]) -> Stops:
     """The stops of all robots.
 
     Args:
         settings: with `p_delay` above 0.
         robots: their number in one draw.
-        seed: of the run.
-        repeat: of the run.
+        seeds: of the run.
         draws: numbers of the draws, ascending.
     """
     if settings.event_model == "poisson":
-        own = streams(seed, repeat, "delays.poisson", 1, draws)
+        own = seeds.streams("delays.poisson", 1, draws)
         return _PoissonStops([_Fleet(settings, robots, random) for random in own], robots)
-    return _BernoulliStops(settings, streams(seed, repeat, "delays.bernoulli", robots, draws))
+    return _BernoulliStops(settings, seeds.streams("delays.bernoulli", robots, draws))
 
 
 class _BernoulliStops:

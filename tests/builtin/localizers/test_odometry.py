@@ -4,6 +4,7 @@ import pytest
 from mrpbench_core.builtin.localizers.odometry import DeadReckoning
 from mrpbench_core.config.settings import Noise
 from mrpbench_core.engine.execution.noise import Disturbances
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.common.poses import composed, wrapped
 from mrpbench_core.model.execution.observation import Odometry
@@ -37,7 +38,7 @@ def test_the_frame_of_the_odometry_does_not_matter(frame):
 
 def test_the_estimate_drifts_as_the_odometry_does():
     fleet, twist = Fleet(robots=(ROBOT,) * 2), np.array([(0.2, 0.3)] * 2)
-    noise, session, pose = Disturbances(Noise(odometry=0.01), fleet, PLACES, PERIOD, 1, 0), start(), PLACES
+    noise, session, pose = Disturbances(Noise(odometry=0.01), fleet, PLACES, PERIOD, Seeds(1)), start(), PLACES
     for step in range(400):
         odometry = noise.odometry(State(pose=pose, twist=twist, level=[0, 0], contacts=[]))
         estimate = session.update(step * PERIOD, odometry, (), None)

@@ -5,7 +5,7 @@ import pytest
 
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.run import execute
-from mrpbench_core.engine.seeds import stream
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
@@ -79,7 +79,7 @@ def test_a_robot_held_back_is_recorded_without_a_command(tmp_path):
     recording = Recording(tmp_path / "recordings" / "run.zip")
     time, command = recording.channel("time"), recording.channel("command")
     recording.close()
-    delay = np.array([stream(0, 0, "start_jitter", robot).uniform(0, 5) for robot in range(3)])
+    delay = np.array([Seeds(0).stream("start_jitter", robot).uniform(0, 5) for robot in range(3)])
     assert not command[time[:, None] < delay].any()
     assert command[time[:, None] > delay + 1].any()
 

@@ -28,6 +28,7 @@ from mrpbench_core.config.delays import Delays
 from mrpbench_core.engine.execution.commitments import commitments
 from mrpbench_core.engine.execution.delays import DrawnDelays
 from mrpbench_core.engine.execution.worst_case import Adversary
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.model.execution.orders import BatchOrders
 from mrpbench_core.model.planning.plan import Budget, Plan
 from mrpbench_core.model.planning.problem import Feature, features_of
@@ -169,7 +170,7 @@ def execute(problem, plan, planner, dispatcher, delays, situation, period, repla
     executor, changes = BatchExecutor(problem, plan, period, random), 0
     if delays.worst_case:
         adversary = Adversary(problem, plan, delays.worst_case * delays.tick)
-    drawn = DrawnDelays(delays, len(problem), situation, 0, [0])
+    drawn = DrawnDelays(delays, len(problem), Seeds(situation, 0), [0])
     for step in sorted(random.integers(1, 30, replans).tolist()):
         releasing = Copies([session], executor, changes, random)
         proceed(releasing, executor, drawn, [adversary] if delays.worst_case else [], step)
@@ -194,7 +195,7 @@ def execute(problem, plan, planner, dispatcher, delays, situation, period, repla
     else:
         sessions = [session, *(session.copied() for _ in range(DRAWS[kind] - 1))]
         releasing = Copies(sessions, executor, changes, random)
-    drawn = DrawnDelays(delays, len(problem), situation, 1, range(DRAWS[kind]))
+    drawn = DrawnDelays(delays, len(problem), Seeds(situation, 1), range(DRAWS[kind]))
     adversaries = [copy.deepcopy(adversary) for _ in range(DRAWS[kind])] if delays.worst_case else []
     proceed(releasing, executor, drawn, adversaries, int(LIMIT / period))
     faults = dict(meetings(executor))

@@ -16,6 +16,7 @@ from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.worst_case import Adversary
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.model.execution.orders import BatchOrders
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.testing.drawing import build, path_through
@@ -35,7 +36,7 @@ DISPATCHERS = st.builds(Adg, lookahead=st.sampled_from([1, 2, 8]), group_margin=
 
 def alone(schedule, delays, seed, draw, limit, adversary):
     """Arrival and waiting of one execution."""
-    stream = DelayStream(delays, len(schedule.context.problem), seed, 0, (draw,), adversary)
+    stream = DelayStream(delays, len(schedule.context.problem), Seeds(seed), (draw,), adversary)
     loop = ScheduleLoop(schedule, stream, limit)
     loop.run()
     return loop.arrival, loop.waiting
@@ -47,7 +48,9 @@ def require_equal(schedule, delays, seed, executions, limit):
     adversary = Adversary(problem, schedule.plan, attack) if attack else None
     session = schedule.batch(executions)
     draws = range(1, executions + 1)
-    loop = ScheduleLoop(schedule, DelayStream(delays, len(problem), seed, 0, draws, adversary), limit, batch=session)
+    loop = ScheduleLoop(
+        schedule, DelayStream(delays, len(problem), Seeds(seed), draws, adversary), limit, batch=session
+    )
     loop.run()
     each = [alone(schedule, delays, seed, draw, limit, adversary) for draw in draws]
     for ours, theirs in zip((loop.arrival, loop.waiting), zip(*each, strict=True), strict=True):
@@ -107,6 +110,6 @@ def test_orders_that_break_the_contract_end_the_run(context_of, released, in_ste
     plans = (random_plan(np.random.default_rng(seed)) for seed in range(99))
     problem, plan = next(found for found in plans if min(map(len, found[1].paths)) > 1)
     schedule = Schedule(context_of(problem, plan), Adg(group_margin=0.0))
-    loop = ScheduleLoop(schedule, DelayStream(Delays(), len(problem), 0, 0, (1, 2)), 99.0, batch=Breaking())
+    loop = ScheduleLoop(schedule, DelayStream(Delays(), len(problem), Seeds(0), (1, 2)), 99.0, batch=Breaking())
     with pytest.raises(BrokenContractError, match=what):
         loop.run()

@@ -10,6 +10,7 @@ from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.crowds import Crowds
 from mrpbench_core.engine.run import execute
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
@@ -57,7 +58,7 @@ class AskingSession(CrowdSession):
 
 def start(*crowds, world=None, apart=False):
     poses, levels = np.array([(1.0, 1.0, 0.0)]), np.zeros(1, np.int16)
-    return Crowds(crowds, world or room(), fleet(1), PERIOD, 0, 0, poses=poses, levels=levels, apart=apart)
+    return Crowds(crowds, world or room(), fleet(1), PERIOD, Seeds(0), poses=poses, levels=levels, apart=apart)
 
 
 @attrs.frozen(kw_only=True)

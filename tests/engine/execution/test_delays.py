@@ -9,13 +9,14 @@ from mrpbench_core.config.delays import Delays
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.run import execute
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
 
 
 def stopped(settings, robots, ticks, seed=0):
     """bool[ticks, robots], and the stops that began as (tick, robot, length)."""
-    delays, rows, begun = DelayStream(settings, robots, seed, 0), [], []
+    delays, rows, begun = DelayStream(settings, robots, Seeds(seed, 0)), [], []
     for tick in range(ticks):
         begun += [(tick, event.robot, float(event.detail.removesuffix(" s"))) for event in delays.begun(float(tick))]
         rows.append(delays.stopped.copy())
@@ -77,25 +78,28 @@ def test_all_robots_stop_all_the_time_if_that_is_certain():
 
 def test_the_stops_of_a_robot_follow_seed_repeat_and_robot_and_nothing_else():
     settings = Delays(p_delay=0.1, speed=0.3)
-    few, many = DelayStream(settings, 2, 3, 0), DelayStream(settings, 9, 3, 0)
+    few, many = DelayStream(settings, 2, Seeds(3, 0)), DelayStream(settings, 9, Seeds(3, 0))
     assert [*islice(few.stops(1), 20)] == [*islice(many.stops(1), 20)]
     both, late = np.arange(2), np.array([3, 200])
     near = few.speed(both, np.array([1, 5]))
     np.testing.assert_array_equal(many.speed(both, late), few.speed(both, late))
     np.testing.assert_array_equal(few.speed(both, np.array([1, 5])), near)
-    others = [DelayStream(settings, 2, *key) for key in ((4, 0), (3, 1))]
-    assert len({tuple(islice(DelayStream(settings, 2, *key).stops(0), 20)) for key in ((3, 0), (4, 0), (3, 1))}) == 3
+    others = [DelayStream(settings, 2, Seeds(*key)) for key in ((4, 0), (3, 1))]
+    assert (
+        len({tuple(islice(DelayStream(settings, 2, Seeds(*key)).stops(0), 20)) for key in ((3, 0), (4, 0), (3, 1))})
+        == 3
+    )
     assert all((other.speed(both, late) != few.speed(both, late)).all() for other in others)
 
 
 def test_a_tick_is_as_long_as_asked_for():
-    seconds, halves = (DelayStream(Delays(p_delay=0.2, tick=tick), 1, 0, 0) for tick in (1.0, 0.5))
+    seconds, halves = (DelayStream(Delays(p_delay=0.2, tick=tick), 1, Seeds(0, 0)) for tick in (1.0, 0.5))
     for one, half in islice(zip(seconds.stops(0), halves.stops(0), strict=True), 20):
         assert (one[0] / 2, one[1] / 2) == half
 
 
 def test_speeds_are_log_normal_with_mean_one():
-    delays = DelayStream(Delays(speed=0.3), 200, 0, 0)
+    delays = DelayStream(Delays(speed=0.3), 200, Seeds(0, 0))
     drawn = np.concatenate([delays.speed(np.arange(200), np.full(200, segment)) for segment in range(100)])
     assert drawn.mean() == pytest.approx(1, abs=0.01)
     assert np.log(drawn).std() == pytest.approx(0.3, rel=0.03)
@@ -104,7 +108,7 @@ def test_speeds_are_log_normal_with_mean_one():
 
 
 def test_without_delays_commands_pass_unchanged():
-    delays, twist = DelayStream(Delays(), 2, 0, 0), np.ones((2, 2))
+    delays, twist = DelayStream(Delays(), 2, Seeds(0, 0)), np.ones((2, 2))
     assert not delays
     assert not [*delays.begun(9.0)]
     assert delays.driven(twist, np.zeros(2, int)) is twist

@@ -13,6 +13,7 @@ from mrpbench_core.engine.execution.faults import FaultEvent, FaultState
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.execution.worst_case import Adversary
+from mrpbench_core.engine.seeds import Seeds
 
 SLOW = FaultEvent(kind="slow", begin=1.0, end=9.0, robot=0, speed=0.5)
 
@@ -25,7 +26,7 @@ def test_draws_are_those_of_their_numbers(context_of, monkeypatch, at_once, even
     robots = len(problem)
     monkeypatch.setattr(module, "_AT_ONCE", at_once * robots)
     schedule = Schedule(context_of(problem, plan), Adg(group_margin=0.0))
-    drawn = Draws(delays, robots, (5, 1), Adversary(problem, plan, 5.0))
+    drawn = Draws(delays, robots, Seeds(5, 1), Adversary(problem, plan, 5.0))
     found = [np.concatenate(rows) for rows in zip(*drawn.execute(schedule, faults(events, robots), 999.0), strict=True)]
     for draw in range(1, 8):
         loop = ScheduleLoop(schedule, drawn.stream(draw), 999.0, faults=faults(events, robots))

@@ -21,6 +21,7 @@ from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.run import execute
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.observation import ScanBatch
@@ -43,7 +44,7 @@ entries = st.builds(
 
 
 def drawn(events, seed=0, limit=100.0, robots=4):
-    return draw_faults(Faults(events=tuple(events)), robots, GRID, ("door", "lift"), limit, seed, 0)
+    return draw_faults(Faults(events=tuple(events)), robots, GRID, ("door", "lift"), limit, Seeds(seed))
 
 
 @given(st.lists(entries, min_size=1, max_size=4), st.integers(0, 2**32))
@@ -161,11 +162,11 @@ def finished(run_context, problem, plan, faults, seed, dispatcher):
         result=attrs.evolve(run_context.result, plan=plan),
     )
     names = [resource.name for resource in problem.roadmap.resources]
-    events = draw_faults(faults, robots, problem.roadmap, names, 3000.0, seed, 0)
+    events = draw_faults(faults, robots, problem.roadmap, names, 3000.0, Seeds(seed))
     state = FaultState(faults, events, robots)
     loop = ScheduleLoop(
         Schedule(context, dispatcher),
-        DelayStream(DELAYS, robots, seed, 0),
+        DelayStream(DELAYS, robots, Seeds(seed)),
         3000.0,
         Recorder(1, PERIOD, lambda chunk: None),
         state,

@@ -6,6 +6,7 @@ import pytest
 
 from mrpbench_core.config.settings import Noise
 from mrpbench_core.engine.execution.noise import Disturbances
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.observation import ScanBatch
@@ -18,7 +19,7 @@ BURGER = load_robot("turtlebot3_burger")
 
 def disturbances(seed=0, repeat=0, robots=2, **size):
     start = np.resize(START, (robots, 3))
-    return Disturbances(Noise(**size), Fleet(robots=(BURGER,) * robots), start, PERIOD, seed, repeat)
+    return Disturbances(Noise(**size), Fleet(robots=(BURGER,) * robots), start, PERIOD, Seeds(seed, repeat))
 
 
 def straight(noise, steps=200, step=0.01, robots=2):

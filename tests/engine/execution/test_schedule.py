@@ -13,6 +13,7 @@ from mrpbench_core.config.delays import Delays
 from mrpbench_core.engine.execution.delays import DelayStream
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
+from mrpbench_core.engine.seeds import Seeds
 
 LATE = Delays(p_delay=0.05, max_delay=8, speed=0.2)
 
@@ -36,7 +37,7 @@ def test_every_execution_is_as_if_it_were_the_only_one(context_of, seed, resourc
         for draw in range(3):
             loops = []
             for schedule in (shared, Schedule(context, dispatcher)):
-                loops.append(ScheduleLoop(schedule, DelayStream(LATE, len(problem), seed, 0, (draw,)), 3000.0))
+                loops.append(ScheduleLoop(schedule, DelayStream(LATE, len(problem), Seeds(seed), (draw,)), 3000.0))
                 assert loops[-1].run().succeeded
             np.testing.assert_array_equal(loops[0].arrival, loops[1].arrival)
             np.testing.assert_array_equal(loops[0].waiting, loops[1].waiting)

@@ -21,6 +21,7 @@ from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
 from mrpbench_core.engine.run import execute
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.files.errors import InputErrors
 from mrpbench_core.model.planning.plan import Plan
 from mrpbench_core.model.planning.problem import Feature
@@ -43,7 +44,7 @@ def executed(context, dispatcher, delays=None, limit=3000.0):
     """Whether all arrived, when, and the channels."""
     chunks = []
     recorder = Recorder(1 / PERIOD, PERIOD, chunks.append)
-    stream = DelayStream(delays or Delays(), len(context.problem), 3, 0)
+    stream = DelayStream(delays or Delays(), len(context.problem), Seeds(3))
     result = ScheduleLoop(Schedule(context, dispatcher), stream, limit, recorder).run()
     names = {name for chunk in chunks for name in chunk}
     return (
@@ -90,7 +91,7 @@ def test_a_robot_alone_takes_the_time_of_its_plan_and_of_its_stops(context_of, s
     assert executed(context, Adg())[:2] == (True, pytest.approx(planned))
     delays = Delays(p_delay=0.2, max_delay=3)
     end = planned
-    for begin, until in DelayStream(delays, 1, 3, 0).stops(0):
+    for begin, until in DelayStream(delays, 1, Seeds(3)).stops(0):
         if begin >= end:
             break
         end += until - begin
@@ -101,7 +102,7 @@ def test_a_robot_alone_takes_the_time_of_its_plan_and_of_its_stops(context_of, s
 def test_a_robot_takes_each_segment_at_its_speed(context_of, straight):
     problem, plan = straight
     delays = Delays(speed=0.5)
-    drawn = DelayStream(delays, 1, 3, 0)
+    drawn = DelayStream(delays, 1, Seeds(3))
     expected = sum(
         problem.roadmap.tick / float(drawn.speed(np.array([0]), np.array([segment]))[0]) for segment in range(10)
     )
@@ -214,7 +215,7 @@ def test_robots_arrive_when_they_do_in_the_recording_and_also_without_one(contex
     context, late = context_of(problem, plan), Delays(p_delay=0.05, max_delay=8, speed=0.2)
     loops = []
     for recorder in (Recorder(1 / PERIOD, PERIOD, (chunks := []).append), None):
-        delays = DelayStream(late, len(problem), seed, 0, (2,))
+        delays = DelayStream(late, len(problem), Seeds(seed), (2,))
         loops.append(ScheduleLoop(Schedule(context, Adg()), delays, 3000.0, recorder))
         assert loops[-1].run().succeeded
     np.testing.assert_array_equal(loops[0].arrival, loops[1].arrival)

@@ -12,6 +12,7 @@ from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.checking.conflicts import find_conflicts
 from mrpbench_core.config.delays import Delays
 from mrpbench_core.engine.execution.delays import DrawnDelays
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.model.planning.plan import Path, Plan
 
 SEEDS = st.integers(0, 2**32 - 1)
@@ -44,7 +45,7 @@ def test_executions_in_which_robots_break_rules_are_those_whose_plans_the_valida
         object.__setattr__(resource, "setup_ticks", 0)  # executions do not know these
     executor = BatchExecutor(problem, plan, 0.5, random)
     executor.times(EXECUTIONS)
-    delays = DrawnDelays(DELAYS, len(problem), seed, 0, range(EXECUTIONS))
+    delays = DrawnDelays(DELAYS, len(problem), Seeds(seed), range(EXECUTIONS))
     free, all_of = np.full(executor.reached.shape, np.inf), np.tile(executor.length, (EXECUTIONS, 1))
     while not executor.drained.all():
         executor.step(all_of, NONE, free, delays, ())
@@ -81,7 +82,7 @@ def test_one_session_for_all_executions_releases_what_a_session_for_each_does_fr
 def proceed(sessions, executor, until, repeat):
     """Go on until all robots have arrived, or until a step."""
     executions = len(executor.reached)
-    delays = DrawnDelays(DELAYS, len(executor.problem), 5, repeat, range(executions))
+    delays = DrawnDelays(DELAYS, len(executor.problem), Seeds(5, repeat), range(executions))
     free = np.full(executor.reached.shape, np.inf)
     while executor.now < until and not executor.drained.all():
         now = executor.now * executor.period
