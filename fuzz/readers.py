@@ -20,7 +20,7 @@ from mrpbench_analysis.observed_run import Sampling, observe, observe_own
 from mrpbench_controllers_dwb.dwb import Dwb
 from mrpbench_exporters_rosbag2 import Rosbag2
 from mrpbench_localizers_amcl import Amcl
-from mrpbench_metrics_standard import execution, planning
+from mrpbench_metrics_standard import execution, people, planning
 from mrpbench_planners_external.outputs import READERS as OUTPUTS
 from mrpbench_planners_external.outputs import UnreadableError
 from mrpbench_replay.write_page import write_page
@@ -79,7 +79,9 @@ class Reader:
 @functools.cache
 def columns() -> dict[str, Any]:
     """The declarations of the columns of the records."""
-    declared = describe({"planning": planning.Planning(), "execution": execution.Execution()})
+    declared = describe(
+        {"planning": planning.Planning(), "execution": execution.Execution(), "people": people.People()}
+    )
     return {name: declared[name] for name in json.loads(records()[0].splitlines()[0])["metrics"]}
 
 
