@@ -23,8 +23,10 @@ before = peak()
 found = solve(free, cells[:500], cells[500:1000], algorithm=sys.argv[1], memory_limit=int(sys.argv[2]), time_limit=60)
 print(found.status, found.statistics["memory_bytes"], peak() - before)
 """
-LIMIT = 128 << 20
-"""The distances of all robots to all cells take twice as much."""
+LIMIT = 48 << 20
+"""The distances of all robots to all cells take more, in pages of bytes."""
+BEYOND = 40 << 20
+"""Bytes that are not counted: the roadmap, and what `pbs` holds for each cell of a large map."""
 
 
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="asks Linux for the peak of a process")
@@ -35,4 +37,4 @@ def test_a_process_grows_little_beyond_the_memory_limit(algorithm):
     status, counted, grown = subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()
     assert status == "out_of_memory"
     assert int(counted) > LIMIT
-    assert int(grown) < 1.1 * LIMIT
+    assert int(grown) < LIMIT + BEYOND
