@@ -161,8 +161,8 @@ NB_MODULE(sim, module) {
 
   nb::class_<Caster>(module, "Caster")
       .def("__init__", &construct_caster, nb::kw_only(), "segments"_a, "lidar"_a, "threads"_a = 1)
-      .def("scan", &scan, "robots"_a, "pose"_a, "movers"_a, "radius"_a, "leaves"_a = nb::none(),
-           "sides"_a = nb::none(), "first"_a = nb::none());
+      .def("scan", &scan, "robots"_a, "pose"_a, "movers"_a, "radius"_a, "leaves"_a = nb::none(), "sides"_a = nb::none(),
+           "first"_a = nb::none());
 
   nb::class_<Walkers>(module, "Walkers")
       .def("__init__", &construct_walkers, nb::kw_only(), "segments"_a, "people"_a, "options"_a, "orca"_a)
