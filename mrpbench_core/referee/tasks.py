@@ -7,12 +7,11 @@ import attrs
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.execution.movers import FASTEST
 from mrpbench_core.model.runs.arrivals import REST
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_core.referee.motion import EXCESS, NUDGE
 
-FASTEST = 5.0
-"""m/s at which people and other movers may push a robot."""
 LATE = 1e-6
 """Seconds and metres by which numbers may be off, because they are rounded."""
 

@@ -16,13 +16,11 @@ from mrpbench_core.engine.execution.gait import Gait
 from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.model.common.arrays import Float, Int16, Int32
 from mrpbench_core.model.common.fleet import Fleet
-from mrpbench_core.model.execution.movers import JUMP, LARGEST_RADIUS, LONGEST_KIND, CrowdView, Mover, Movers
+from mrpbench_core.model.execution.movers import FASTEST, JUMP, LARGEST_RADIUS, LONGEST_KIND, CrowdView, Mover, Movers
 from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.world import World
 
-FASTEST = 5.0
-"""m/s at which a member moves at most, and pushes a robot; one that is farther away was put there."""
 ROUNDING = 1e-6
 """Metres."""
 

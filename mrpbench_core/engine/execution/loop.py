@@ -12,7 +12,6 @@ from mrpbench_core.api.navigator import NavigatorSession
 from mrpbench_core.engine.contract_checks import ContractChecks, check_returned
 from mrpbench_core.engine.execution.arrivals import REST, Arrivals
 from mrpbench_core.engine.execution.control_loop import ControlLoop, ExecutionResult
-from mrpbench_core.engine.execution.crowds import FASTEST
 from mrpbench_core.engine.execution.cutting import DrivenSegments, shifted
 from mrpbench_core.engine.execution.destinations import heads
 from mrpbench_core.engine.execution.ending import Ending
@@ -26,6 +25,7 @@ from mrpbench_core.engine.execution.standstill import Standstill
 from mrpbench_core.engine.execution.visits import Visits
 from mrpbench_core.model.common.arrays import Bool
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
+from mrpbench_core.model.execution.movers import FASTEST
 from mrpbench_core.model.execution.observation import FleetObservation
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.execution.route import Route

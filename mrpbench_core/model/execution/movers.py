@@ -7,6 +7,9 @@ from mrpbench_core.model.common.arrays import Float, Int16, Int32, array
 from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.model.worlds.level_layout import LevelLayout
 
+FASTEST = 5.0
+"""m/s at which a mover moves at most, and pushes a robot; one that is farther away was put there."""
+
 JUMP = 1.0
 """Metres in a control period beyond which a mover does not move but is put where it is to be."""
 

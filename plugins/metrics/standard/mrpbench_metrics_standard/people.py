@@ -32,7 +32,7 @@ FREEZING = "Trautman and Krause, Unfreezing the Robot, IROS 2010"
 class People(Metric):
     """Measures what robots do to people and other movers, from true poses; null where there are none.
 
-    Robots and movers are discs, and robots have their footprints where contacts are told apart by who moved; the
+    Robots and movers are discs, and robots have their footprints where contacts are divided by who moved; the
     distance of a pair is that of their outlines. Hall's distances were observed in
     conversations, and corridors force people and robots below them: the times are numbers, not verdicts.
     """

@@ -1,4 +1,4 @@
-"""Contacts of robots with people and other movers, from true poses and footprints, told apart by who moved."""
+"""Contacts of robots with people and other movers, from true poses and footprints, divided by who moved."""
 
 from typing import NamedTuple
 

@@ -1,4 +1,4 @@
-"""Contacts of one robot with one person, told apart by who moved, in encounters made by hand."""
+"""Contacts of one robot with one person, divided by who moved, in encounters made by hand."""
 
 import numpy as np
 import pytest
