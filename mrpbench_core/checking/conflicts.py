@@ -53,8 +53,8 @@ class Occupation(NamedTuple):
 def find_conflicts(problem: Problem, plan: Plan, limit: int | None = None) -> list[Conflict]:
     """The first `limit` conflicts (None = all) of a plan whose paths have no faults, in order of time."""
     occupations = [Occupation(*row) for row in _candidates(problem, _occupations(problem, plan)).tolist()]
-    found = chain(_pairs(problem, occupations), _over_capacity(problem, occupations))
-    return sorted(set(found), key=lambda conflict: (conflict.tick, conflict))[:limit]
+    conflicts = chain(_pairs(problem, occupations), _over_capacity(problem, occupations))
+    return sorted(set(conflicts), key=lambda conflict: (conflict.tick, conflict))[:limit]
 
 
 def _occupations(problem: Problem, plan: Plan) -> Int:

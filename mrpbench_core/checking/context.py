@@ -252,6 +252,6 @@ def _finite(name: str, values: NDArray[Any]) -> Iterator[str]:
 
 
 def _indices(name: str, values: Any, count: int, least: int = 0) -> Iterator[str]:
-    found = np.asarray(values)
-    if found.size and (found.min() < least or found.max() >= count):
+    indices = np.asarray(values)
+    if indices.size and (indices.min() < least or indices.max() >= count):
         yield f"{name} does not exist"

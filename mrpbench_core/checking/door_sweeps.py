@@ -26,14 +26,14 @@ def check_door_sweeps(world: World, roadmap: Roadmap, radius: float) -> list[str
         radius: of the largest robot, metres.
     """
     used = {resource.name: resource for resource in roadmap.resources if resource.kind == "door"}
-    found: list[str] = []
+    faults: list[str] = []
     for operated in Facilities(world).doors:
         if operated.name in used:
-            found += _swept_lanes(world, operated, radius)
+            faults += _swept_lanes(world, operated, radius)
             if roadmap.grid is not None:
-                found += _swept_cells(roadmap, operated, radius)
-            found += _without_waiting_place(world, roadmap, operated, used[operated.name])
-    return found
+                faults += _swept_cells(roadmap, operated, radius)
+            faults += _without_waiting_place(world, roadmap, operated, used[operated.name])
+    return faults
 
 
 def _swept_lanes(world: World, operated: OperatedDoor, radius: float) -> Iterator[str]:

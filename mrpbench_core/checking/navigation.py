@@ -50,13 +50,13 @@ def vertices_on_lanes(world: World) -> list[tuple[int, Pair]]:
     """Vertices on an edge of their graph that does not end there, with that edge."""
     point, level = _positions(world)
     of = graphs(world)
-    found = []
+    overlaps = []
     for (a, b), own in sorted(_graphs_of_edges(world).items()):
         near = (point_segment_distance(point, point[a], point[b]) < TOLERANCE) & (level == level[a])
         ends = np.minimum(np.hypot(*(point - point[a]).T), np.hypot(*(point - point[b]).T))
         inside = np.flatnonzero(near & (ends >= TOLERANCE)).tolist()
-        found += [(vertex, (a, b)) for vertex in inside if not of[vertex] or of[vertex] & own]
-    return found
+        overlaps += [(vertex, (a, b)) for vertex in inside if not of[vertex] or of[vertex] & own]
+    return overlaps
 
 
 def crossings(world: World) -> list[tuple[Pair, Pair]]:
@@ -64,15 +64,15 @@ def crossings(world: World) -> list[tuple[Pair, Pair]]:
     point, level = _positions(world)
     of = _graphs_of_edges(world)
     edges = np.array(sorted(of), np.int64).reshape(-1, 2)
-    found: list[tuple[Pair, Pair]] = []
+    pairs: list[tuple[Pair, Pair]] = []
     for index, (a, b) in enumerate(edges.tolist()):
         c, d = edges[index + 1 :].T
         apart = side(point[a], point[b], point[c]) * side(point[a], point[b], point[d]) < 0
         apart &= side(point[c], point[d], point[a]) * side(point[c], point[d], point[b]) < 0
         later = np.flatnonzero(apart & (level[c] == level[a]))
         crossed = [(int(c[other]), int(d[other])) for other in later.tolist()]
-        found += [((a, b), other) for other in crossed if of[a, b] & of[other]]
-    return found
+        pairs += [((a, b), other) for other in crossed if of[a, b] & of[other]]
+    return pairs
 
 
 def called(world: World, index: int) -> str:

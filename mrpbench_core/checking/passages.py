@@ -46,8 +46,8 @@ def narrow_passages(level: Level, width: float) -> list[Passage]:
     narrow = np.array([ends for ends in gaps if LEAST * width < np.hypot(*(ends[1] - ends[0])) < width]).reshape(
         -1, 2, 2
     )
-    found = narrow[_leads_through(level, narrow, width)]
-    middle, gap = found.mean(axis=1), np.hypot(*(found[:, 1] - found[:, 0]).T)
+    segments = narrow[_leads_through(level, narrow, width)]
+    middle, gap = segments.mean(axis=1), np.hypot(*(segments[:, 1] - segments[:, 0]).T)
     passages = [Passage(x, y, far) for (x, y), far in zip(middle.tolist(), gap.tolist(), strict=True)]
     return sorted(passages, key=lambda passage: (passage.width, passage.x, passage.y))
 

@@ -50,12 +50,12 @@ def segments_of(paths: Sequence[Path]) -> Segments:
 
 def path_faults(problem: Problem, paths: Sequence[Path]) -> dict[int, str]:
     """Return the first fault of each path that has one, by robot."""
-    found: dict[int, str] = {}
+    faults: dict[int, str] = {}
     if not isinstance(paths, Paths):
         ragged = [robot for robot, it in enumerate(paths) if not len(it.edge) == len(it.enter) == len(it.leave)]
-        found = dict.fromkeys(ragged, "edge, enter and leave differ in length")
+        faults = dict.fromkeys(ragged, "edge, enter and leave differ in length")
         nothing = Path(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
-        paths = [nothing if robot in found else path for robot, path in enumerate(paths)]
+        paths = [nothing if robot in faults else path for robot, path in enumerate(paths)]
     segments = segments_of(paths)
     rules: tuple[Callable[[Problem, Segments], Faults], ...] = (
         _of_edges,
@@ -66,10 +66,10 @@ def path_faults(problem: Problem, paths: Sequence[Path]) -> dict[int, str]:
     )
     for rule in rules:
         for robot, fault in rule(problem, segments):
-            found.setdefault(robot, fault)
-        if found:  # what a rule relies on holds for the other robots
-            segments = segments.where(~np.isin(segments.robot, list(found)))
-    return dict(sorted(found.items()))
+            faults.setdefault(robot, fault)
+        if faults:  # what a rule relies on holds for the other robots
+            segments = segments.where(~np.isin(segments.robot, list(faults)))
+    return dict(sorted(faults.items()))
 
 
 def _of_edges(problem: Problem, segments: Segments) -> Faults:

@@ -18,8 +18,8 @@ def reachable(roadmap: Roadmap, profile: int, source: int) -> Bool:
     seen[source] = True
     frontier = np.array([source])
     while len(frontier):
-        found = head[_rows(first, frontier)]
-        frontier = np.unique(found[~seen[found]])
+        neighbors = head[_rows(first, frontier)]
+        frontier = np.unique(neighbors[~seen[neighbors]])
         seen[frontier] = True
     return seen
 

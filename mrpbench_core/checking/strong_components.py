@@ -11,7 +11,7 @@ def strong_components(before: list[int], after: list[int]) -> list[tuple[int, ..
     number: dict[int, int] = {}
     lowest: dict[int, int] = {}
     open_nodes: dict[int, None] = {}  # a stack with quick look-up
-    found = []
+    components = []
     trail: list[tuple[int, Iterator[int]]] = []  # instead of recursion, which a long convoy of robots would exhaust
 
     def enter(node: int) -> None:
@@ -39,5 +39,5 @@ def strong_components(before: list[int], after: list[int]) -> list[tuple[int, ..
                     while not component or component[-1] != node:
                         component.append(open_nodes.popitem()[0])
                     if len(component) > 1:
-                        found.append(tuple(sorted(component)))
-    return sorted(found)
+                        components.append(tuple(sorted(component)))
+    return sorted(components)

@@ -111,15 +111,15 @@ def _reached(endpoint: int, arcs: list[tuple[int, int]], blocker: Int, label: In
     after: dict[int, list[int]] = defaultdict(list)
     for one, other in arcs:
         after[one].append(other)
-    seen, ahead, found = {endpoint}, [endpoint], set()
+    seen, ahead, labels = {endpoint}, [endpoint], set()
     while ahead:
         for vertex in after[ahead.pop()]:
             if blocker[vertex] == NONE:
-                found.add(int(label[vertex]))
+                labels.add(int(label[vertex]))
             elif vertex not in seen:
                 seen.add(vertex)
                 ahead.append(vertex)
-    return frozenset(found)
+    return frozenset(labels)
 
 
 def _closure(arcs: Iterable[tuple[int, int]]) -> dict[int, set[int]]:
@@ -128,12 +128,12 @@ def _closure(arcs: Iterable[tuple[int, int]]) -> dict[int, set[int]]:
     for one, other in set(arcs):
         if one != other:
             after[one].add(other)
-    found = {}
+    closure = {}
     for label in list(after):
         seen, ahead = {label}, [label]
         while ahead:
             new = after.get(ahead.pop(), set()) - seen
             seen |= new
             ahead.extend(new)
-        found[label] = seen
-    return found
+        closure[label] = seen
+    return closure

@@ -191,8 +191,8 @@ def _roadmap_faults(world: World, roadmap: Roadmap) -> list[str]:
     for level in np.unique(roadmap.level):
         here = np.flatnonzero(storey == level)
         place = roadmap.place[here]
-        found = label[place[place >= 0]]
-        main = np.bincount(found).argmax() if len(found) else -1
+        labels = label[place[place >= 0]]
+        main = np.bincount(labels).argmax() if len(labels) else -1
         cut = here[(place < 0) | (label[np.maximum(place, 0)] != main)]
         faults += [f"{called(world, vertex)} cannot be reached on the roadmap" for vertex in cut.tolist()]
     return faults

@@ -92,8 +92,8 @@ def checked(name: str, words: list[str], method: str) -> dict[str, str]:
     """In a worker process: the outcome of one check."""
     from mrpbench_core.testing.checks import run_check
 
-    found = attrs.asdict(run_check(_suite(name, words)[2], method))
-    return {"check": found["name"], "outcome": found["outcome"], "reason": found["reason"]}
+    result = attrs.asdict(run_check(_suite(name, words)[2], method))
+    return {"check": result["name"], "outcome": result["outcome"], "reason": result["reason"]}
 
 
 def _suite(name: str, words: list[str]) -> tuple[str, str, object]:

@@ -76,10 +76,10 @@ def _offers() -> dict[str, list[metadata.EntryPoint]]:
         from mrpbench_core.plugins.installed import entry_points
 
         entries = [entry for entry in entry_points() if entry.group == GROUP]
-    found: dict[str, list[metadata.EntryPoint]] = {}
+    offers: dict[str, list[metadata.EntryPoint]] = {}
     for entry in sorted(entries, key=lambda entry: (entry.name, _origin(entry))):
-        found.setdefault(entry.name, []).append(entry)
-    return found
+        offers.setdefault(entry.name, []).append(entry)
+    return offers
 
 
 def _only(offers: list[metadata.EntryPoint]) -> metadata.EntryPoint:

@@ -31,21 +31,21 @@ def run(arguments: argparse.Namespace) -> int:
         return 0
     if len(words) > 1:
         raise InputError(f"plugins {' '.join(words)}: expected one kind, or `show NAME`")
-    found = list(installed())
-    kinds = in_order({provider.kind for provider in found})
+    providers = list(installed())
+    kinds = in_order({provider.kind for provider in providers})
     if words:
         if (kind := asked_kind(words[0])) not in kinds:
             raise InputError(f"no plugin has the kind {words[0]!r}", hint="there are " + ", ".join(kinds))
         kinds = [kind]
-    found = [provider for kind in kinds for provider in found if provider.kind == kind]
+    providers = [provider for kind in kinds for provider in providers if provider.kind == kind]
     for folder, fault in unreadable().items():
         LOG.warning("%s %s", folder, fault)
-    for advice in filter(None, (provider.advice for provider in found)):
+    for advice in filter(None, (provider.advice for provider in providers)):
         LOG.warning(advice)
     if arguments.json:
-        print_json([_facts(provider) for provider in found])
+        print_json([_facts(provider) for provider in providers])
         return 0
-    main, more = ([it for it in found if (it.kind in MAIN) == wanted] for wanted in (True, False))
+    main, more = ([it for it in providers if (it.kind in MAIN) == wanted] for wanted in (True, False))
     for part, title in ((main, ""), (more, "\nMore" if main else "")):
         if part:
             rows = [[it.kind, it.name, it.distribution, it.version, it.problem or ""] for it in part]

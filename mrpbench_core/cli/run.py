@@ -111,21 +111,21 @@ def _run_one(study: StudyRuns, options: StudyOptions, slots: str) -> tuple[int, 
 
 
 def _list(studies: Sequence[StudyRuns], options: StudyOptions, as_json: bool) -> None:
-    found: list[dict[str, Any]] = []
+    entries: list[dict[str, Any]] = []
     for study in studies:
         out = str(options.folder_of(study.name))
         selection, _ = choose(study, options)
-        found += [
+        entries += [
             {"run_id": point.run_id, "attempt": attempt, "out": out, "axes": point.axes, "config": point.canonical}
             for point, attempt in selection.todo
         ]
     if as_json:
-        print_json(found)
+        print_json(entries)
         return
-    axes = list(dict.fromkeys(key for entry in found for key in entry["axes"]))
+    axes = list(dict.fromkeys(key for entry in entries for key in entry["axes"]))
     rows = [
         [entry["run_id"][:SHORT], entry["attempt"], *(word(entry["axes"].get(key, "–")) for key in axes)]
-        for entry in found
+        for entry in entries
     ]
     print_table(
         ["run", "attempt", *axes],

@@ -35,11 +35,11 @@ def run(_: argparse.Namespace) -> int:
 
 def _ending() -> dict[str, InputError]:
     """Return the distributions with whose plugins no schema can be made, with the reason, by trying each alone."""
-    found = {}
+    errors = {}
     names = dict.fromkeys(provider.distribution for provider in installed() if provider.distribution != CORE)
     for name in names:
         try:
             in_worker(f"the schema leaves out {name}", schema, [other for other in names if other != name])
         except InputError as error:
-            found[name] = error
-    return found
+            errors[name] = error
+    return errors

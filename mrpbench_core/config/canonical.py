@@ -42,11 +42,11 @@ def canonical_component(component: Component, folder: Path) -> dict[str, Any]:
 
 def sources(components: Iterable[Component], folder: Path) -> dict[str, str]:
     """Return the texts of local plugins and of the modules that they import, by name relative to `folder`."""
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     for component in components:
         if source := source_of(type(component)):
-            found |= {relative(file, folder): text for file, text in source.files.items()}
-    return found
+            texts |= {relative(file, folder): text for file, text in source.files.items()}
+    return texts
 
 
 def same_work(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:

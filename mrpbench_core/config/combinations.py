@@ -103,11 +103,11 @@ class IdleOptions:
 
     def _of_run(self, config: RunConfig, root: Item) -> dict[str, str]:
         """Return the reason for each setting without effect in a run, whether the file names it or not."""
-        found = dict(_of_executions(config)) if config.executes else dict(_of_planning_only(config))
+        unused = dict(_of_executions(config)) if config.executes else dict(_of_planning_only(config))
         if config.planner.assigns:
-            found["assigner"] = f"{IDLE}the planner assigns the tasks"
+            unused["assigner"] = f"{IDLE}the planner assigns the tasks"
         if config.tasks is None:
-            found["assigner.look_ahead"] = f"{IDLE}there are no `tasks` that come over time"
+            unused["assigner.look_ahead"] = f"{IDLE}there are no `tasks` that come over time"
         for key, item in root.value.items():
             chosen = getattr(config, key, None)
             several = chosen.values() if isinstance(chosen, Mapping) else [chosen]
@@ -116,14 +116,14 @@ class IdleOptions:
                     block = f"{key}.{number}" if isinstance(item.value, list) else key
                     idle = self._shared(_idle_options, component)
                     self._of_components |= dict.fromkeys(self._shared(_notes, component))
-                    found |= {f"{block}.{name}": IDLE + reason for name, reason in idle.items()}
+                    unused |= {f"{block}.{name}": IDLE + reason for name, reason in idle.items()}
         if all(entry.graph is None or not _is(config.roadmap, "graph") for entry in config.fleet):
-            found |= {
+            unused |= {
                 f"fleet.{number}.graph": f"{IDLE}only `roadmap: graph` has lanes of graphs"
                 for number, entry in enumerate(config.fleet)
                 if entry.graph is not None
             }
-        return found
+        return unused
 
 
 def _idle_options(component: Component) -> Mapping[str, str]:

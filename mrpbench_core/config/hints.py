@@ -32,11 +32,11 @@ def plugins_with(option: str, cls: type[Component]) -> str | None:
     """
     package = cls.__module__.partition(".")[0]
     own = next((entry.name for entry in providers(cls.group) if entry.value.endswith(f":{cls.__name__}")), cls.__name__)
-    found = []
+    names = []
     for provider in providers(cls.group):
         if provider.value.partition(":")[0].partition(".")[0] == package:
             with suppress(InputError):
-                found += [provider.name] if option in attrs.fields_dict(load(provider)) else []
-    found.sort(key=lambda name: -difflib.SequenceMatcher(None, own, name).ratio())
-    verb = "has it" if len(found) == 1 else "have it"
-    return f"{', '.join(found[:MOST])} {verb}" if found else None
+                names += [provider.name] if option in attrs.fields_dict(load(provider)) else []
+    names.sort(key=lambda name: -difflib.SequenceMatcher(None, own, name).ratio())
+    verb = "has it" if len(names) == 1 else "have it"
+    return f"{', '.join(names[:MOST])} {verb}" if names else None

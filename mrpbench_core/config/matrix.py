@@ -118,8 +118,8 @@ def parse_matrix(item: Item) -> Matrix:
 
 def integers(text: Any) -> range | None:
     """Return the integers of a range `a..b`, both included, or None if the text is not a range."""
-    found = _RANGE.fullmatch(text) if isinstance(text, str) else None
-    return range(int(found[1]), int(found[2]) + 1) if found else None
+    match = _RANGE.fullmatch(text) if isinstance(text, str) else None
+    return range(int(match[1]), int(match[2]) + 1) if match else None
 
 
 def rows_of(item: Item, name: str) -> Sequence[tuple[Item, ...]] | None:
@@ -234,14 +234,14 @@ def _product(root: Item, axes: Sequence[Axis], varying: set[str]) -> Iterator[Po
 
 
 def _has(root: Item, name: str, wanted: Item) -> bool:
-    found = look_up(root, name)
-    if found is None:
+    node = look_up(root, name)
+    if node is None:
         return False
     numbers = integers(wanted.value)
     if numbers is not None:
-        return type(found.value) is int and found.value in numbers
+        return type(node.value) is int and node.value in numbers
     main = main_key(steps_of(name))
-    one, other = _block(found.data, main), _block(wanted.data, main)
+    one, other = _block(node.data, main), _block(wanted.data, main)
     return bool(one == other and isinstance(one, bool) == isinstance(other, bool))
 
 

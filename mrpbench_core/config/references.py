@@ -42,10 +42,10 @@ class References:
             raise Unfit(f"expected the name of a file, got {show(item.value)}")
         path = Path(os.path.normpath(self.folder / name))
         try:
-            found = content_hash(path)
+            digest = content_hash(path)
         except InputError as error:
             raise InputErrors(item.location.error(key, f"{error.message}: {path}")) from None
-        if self.verify and pinned is not None and pinned != found:
+        if self.verify and pinned is not None and pinned != digest:
             raise InputErrors(item.location.error(key, f"has changed since this configuration was written: {path}"))
         return path
 

@@ -77,13 +77,13 @@ class _Schema:
     def _option(self, field: Any) -> dict[str, Any]:
         written = field.metadata.get("written_default", attrs.NOTHING)
         plugin, may_be_empty = written if isinstance(written, str) else None, written is attrs.NOTHING
-        found = self.value(field.type, field.metadata.get("unit"), plugin, may_be_empty=may_be_empty)
+        schema = self.value(field.type, field.metadata.get("unit"), plugin, may_be_empty=may_be_empty)
         if field.metadata.get("help"):
-            found = {**found, "description": field.metadata["help"]}
+            schema = {**schema, "description": field.metadata["help"]}
         default = written if written is not attrs.NOTHING else field.default
         if default is not attrs.NOTHING and isinstance(default, bool | int | float | str | enum.Enum):
-            found = {**found, "default": json_scalar(default)}
-        return found
+            schema = {**schema, "default": json_scalar(default)}
+        return schema
 
     def value(
         self, kind: Any, unit: str | None = None, default: str | None = None, *, may_be_empty: bool = True
@@ -172,7 +172,7 @@ class _Schema:
 
     def _block(self, name: str, cls: type[Component]) -> dict[str, Any]:
         """Return the schema of a plugin with its options."""
-        found = {
+        schema = {
             "type": "object",
             "title": name,
             "description": (cls.__doc__ or "").partition("\n")[0],
@@ -180,8 +180,8 @@ class _Schema:
             "required": ["plugin"],
             "additionalProperties": False,
         }
-        json.dumps(found)
-        return found
+        json.dumps(schema)
+        return schema
 
 
 def _axis_name() -> str:
@@ -204,12 +204,12 @@ def _classes(kind: type[Component], without: Sequence[str]) -> dict[str, type[Co
     registry = Registry(kind)
     providers = [provider for provider in registry if provider.distribution not in without]
     names = [provider.name for provider in providers]
-    found = {}
+    classes = {}
     for provider in providers:
         clash = names.count(provider.name) > 1
         name = f"{provider.name}@{provider.distribution}" if clash else provider.name
         try:
-            found[name] = registry.get(name)
+            classes[name] = registry.get(name)
         except InputError:
             continue
-    return found
+    return classes

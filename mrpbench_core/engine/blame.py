@@ -12,8 +12,8 @@ from mrpbench_core.plugins.provenance import components_in, title
 def broken(error: BrokenContractError, config: RunConfig | None) -> str:
     """The message of a broken contract, with the component that the configuration chose."""
     chosen = getattr(config, error.setting, None) if error.setting else None
-    found = [chosen] if isinstance(chosen, Component) else list(chosen or ())
-    return f"{error} ({' or '.join(map(title, found))})" if found else str(error)
+    components = [chosen] if isinstance(chosen, Component) else list(chosen or ())
+    return f"{error} ({' or '.join(map(title, components))})" if components else str(error)
 
 
 def owner_of(error: BaseException, config: RunConfig) -> Component | None:
@@ -23,9 +23,9 @@ def owner_of(error: BaseException, config: RunConfig) -> Component | None:
         exact = next((component for component in components if type(component).__module__ == module), None)
         root = module.partition(".")[0]
         alike = (component for component in components if type(component).__module__.partition(".")[0] == root)
-        found = exact or (None if root == __name__.partition(".")[0] else next(alike, None))
-        if found is not None:
-            return found
+        owner = exact or (None if root == __name__.partition(".")[0] else next(alike, None))
+        if owner is not None:
+            return owner
     return None
 
 

@@ -105,17 +105,17 @@ class ContractChecks:
         """Tell whether all poses f8[n,3] are finite and surely within reach of those `before`: a quick check."""
         return pose.shape == before.shape and np.count_nonzero(np.abs(pose - before) <= self._box) == pose.size
 
-    def _check_facilities(self, found: Any) -> None:
+    def _check_facilities(self, states: Any) -> None:
         kind, before = "the simulator", self._before
-        if not isinstance(found, Mapping):
-            _refuse(kind, f"{type(found).__name__} instead of the state of doors and lifts")
-        if not (found or self._facilities):  # most worlds have none
+        if not isinstance(states, Mapping):
+            _refuse(kind, f"{type(states).__name__} instead of the state of doors and lifts")
+        if not (states or self._facilities):  # most worlds have none
             return
-        if (found and found.keys() != self._facilities) or (
-            before is not None and found.keys() != before.facilities.keys()
+        if (states and states.keys() != self._facilities) or (
+            before is not None and states.keys() != before.facilities.keys()
         ):
             _refuse(kind, "other doors and lifts than there are")
-        for name, value in found.items():
+        for name, value in states.items():
             if not (isinstance(value, float | int) and abs(value) <= LARGEST):
                 _refuse(kind, f"for {name!r} the state {value!r:.40}")
 
@@ -186,10 +186,10 @@ class ContractChecks:
         """Check the robots for which a robot waits, as a dispatcher names them."""
         if robots is None:
             return None
-        found = [int(robot) for robot in robots]
-        if any(not 0 <= robot < self._robots for robot in found):
-            _refuse("the dispatcher", f"robots {found} for which a robot waits, and not all of them exist")
-        return found
+        others = [int(robot) for robot in robots]
+        if any(not 0 <= robot < self._robots for robot in others):
+            _refuse("the dispatcher", f"robots {others} for which a robot waits, and not all of them exist")
+        return others
 
     def batch(self, orders: BatchOrders, executions: int) -> BatchOrders:
         """Check the orders for several executions that a dispatcher returns."""

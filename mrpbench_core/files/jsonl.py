@@ -57,13 +57,13 @@ class Writer:
     def is_intact(self, *, content: bool = False) -> bool:
         """Tell whether nothing else has replaced the file or changed its size, or also its content, since `write`."""
         try:
-            found = _identity(self.path.lstat())
-            if content and found == self._left:
+            identity = _identity(self.path.lstat())
+            if content and identity == self._left:
                 with self.path.open("rb") as stream:
                     return file_digest(stream, "sha256").digest() == self._written.digest()
         except OSError:
             return False
-        return found == self._left
+        return identity == self._left
 
     def close(self) -> None:
         """Close the file; may be called twice."""

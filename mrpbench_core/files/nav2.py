@@ -134,14 +134,14 @@ class Nav2Block:
         Raises:
             InputError: Nav2 does not have some of them; suggest `known` ones.
         """
-        found: dict[str, None] = {}
+        unread: dict[str, None] = {}
         unknown = []
         for name, value in self._values.items():
             first, dot, _ = name.partition(".")
             if name in self._taken or value.shared or (first in self._within and (dot or value.value is None)):
                 continue
             if name in self._not_used or dot:
-                found[name if name in self._not_used else first] = None
+                unread[name if name in self._not_used else first] = None
             else:
                 unknown.append(name)
         if unknown:
@@ -150,8 +150,8 @@ class Nav2Block:
             hint = None if several else did_you_mean(unknown[0], [*self._taken, *self._not_used, *known])
             raise self.error(f"unknown parameter{'s' * several} {names}", unknown[0], hint=hint)
         for inner_name, inner in self._within.items():
-            found |= {f"{inner_name}.{name}": None for name in inner.unused()}
-        return tuple(found)
+            unread |= {f"{inner_name}.{name}": None for name in inner.unused()}
+        return tuple(unread)
 
     def error(self, message: str, name: str, hint: str | None = None) -> InputError:
         """Return an InputError with the location of a parameter."""
@@ -167,11 +167,11 @@ _WORDS = {bool: "true or false", int: "a whole number", float: "a number", str: 
 
 def _flat(data: Mapping[str, Any], steps: Steps) -> dict[str, _Value]:
     """Return values and their steps by dotted name."""
-    found: dict[str, _Value] = {}
+    values: dict[str, _Value] = {}
     for key, value in data.items():
         here = (*steps, key)
         if isinstance(value, Mapping):
-            found |= {f"{key}.{name}": inner for name, inner in _flat(value, here).items()}
+            values |= {f"{key}.{name}": inner for name, inner in _flat(value, here).items()}
         else:
-            found[key] = _Value(value, here)
-    return found
+            values[key] = _Value(value, here)
+    return values

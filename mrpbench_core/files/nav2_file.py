@@ -63,12 +63,12 @@ class Nav2File:
 
     def namespaces(self, node: str) -> tuple[str, ...]:
         """Return the namespaces in which the file names a node; the node of a costmap has its own below them."""
-        found: dict[str, None] = {}
+        names: dict[str, None] = {}
         for entry in self._entries:
             if entry.path[-1] == node and not entry.is_pattern:
                 space = entry.path[:-1]
-                found["/".join(space[:-1] if space and space[-1] == node else space)] = None
-        return tuple(found)
+                names["/".join(space[:-1] if space and space[-1] == node else space)] = None
+        return tuple(names)
 
     def node(self, name: str, namespace: str = "") -> Nav2Block | None:
         """Return the parameters of a node in a namespace, or in the only one that has it; None = there are none."""
@@ -90,14 +90,14 @@ class Nav2File:
         Raises:
             InputError: the namespace does not have the node, or the values differ.
         """
-        found = self.namespaces(node)
-        names = ", ".join(space or "/" for space in found)
+        spaces = self.namespaces(node)
+        names = ", ".join(space or "/" for space in spaces)
         if namespace is not None:
             chosen = namespace.strip("/")
-            if found and chosen not in found:
+            if spaces and chosen not in spaces:
                 raise self.document.error(f"has no {node} in the namespace {namespace!r}", hint=f"there are {names}")
             return read(chosen)
-        values, notes = zip(*map(read, found or ("",)), strict=True)
+        values, notes = zip(*map(read, spaces or ("",)), strict=True)
         if any(other != values[0] for other in values[1:]):
             raise self.document.error(
                 f"has different values of {node} in the namespaces {names}", hint="choose one by the option `namespace`"
@@ -113,13 +113,13 @@ class Nav2File:
 
 def _entries(document: Document, data: Any, path: tuple[str, ...], steps: Steps) -> list[_Entry]:
     """Return the entries below a path, in the order of the file."""
-    found: list[_Entry] = []
+    entries: list[_Entry] = []
     for key, value in data.items() if isinstance(data, dict) else ():
         here = (*steps, key)
         if key != PARAMETERS:
-            found += _entries(document, value, (*path, *filter(None, key.split("/"))), here)
+            entries += _entries(document, value, (*path, *filter(None, key.split("/"))), here)
         elif path and isinstance(value, dict | None):
-            found.append(_Entry(path, value or {}, here))
+            entries.append(_Entry(path, value or {}, here))
         else:
             raise document.error("must be a mapping of parameters below the name of a node", here)
-    return found
+    return entries

@@ -11,8 +11,8 @@ def closest(word: str, known: Iterable[str]) -> str | None:
 
 def did_you_mean(word: str, known: Iterable[str], otherwise: str | None = None) -> str | None:
     """Return a hint that names the most similar known word, or else `otherwise`."""
-    found = closest(word, known)
-    return otherwise if found is None else f"did you mean {found!r}?"
+    nearest = closest(word, known)
+    return otherwise if nearest is None else f"did you mean {nearest!r}?"
 
 
 def suggest(word: str, known: Iterable[str], introduction: str = "there are") -> str:

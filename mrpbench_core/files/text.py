@@ -59,10 +59,10 @@ def read_text(path: Path | str) -> str:
 
 def refuse_control_characters(text: str, file: Path | str | None) -> None:
     """Raise an InputError at the first character that YAML does not allow."""
-    if found := _NOT_TEXT.search(text):
-        line, column = position(text, found.start())
+    if match := _NOT_TEXT.search(text):
+        line, column = position(text, match.start())
         raise InputError(
-            f"character U+{ord(found[0]):04X} is not allowed in a text file", file=file, line=line, column=column
+            f"character U+{ord(match[0]):04X} is not allowed in a text file", file=file, line=line, column=column
         )
 
 

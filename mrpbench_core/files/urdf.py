@@ -88,13 +88,13 @@ def _check_tree(robot: ET.Element, file: Path) -> None:
 
 def _named(robot: ET.Element, tag: str, file: Path) -> dict[str, ET.Element]:
     """Return the elements with a tag by their names."""
-    found: dict[str, ET.Element] = {}
+    elements: dict[str, ET.Element] = {}
     for element in robot.iterfind(tag):
         name = element.get("name", "")
-        if not name or name in found:
+        if not name or name in elements:
             raise InputError(f"has two {tag}s {name!r}" if name else f"has a {tag} without a name", file=file)
-        found[name] = element
-    return found
+        elements[name] = element
+    return elements
 
 
 def mesh_files(robot: ET.Element, file: Path) -> dict[str, Path]:
@@ -106,15 +106,15 @@ def mesh_files(robot: ET.Element, file: Path) -> dict[str, Path]:
     Raises:
         InputError: a file is missing.
     """
-    found = {}
+    meshes = {}
     for mesh in robot.iterfind("link/collision/geometry/mesh"):
         name = mesh.get("filename", "")
         places = _places(name, file)
         existing = [place for place in places if place.is_file()]
         if not existing:
             raise InputError(f"the mesh {name!r} is missing", file=file, hint=f"looked for {places[-1]}")
-        found[name] = existing[0]
-    return found
+        meshes[name] = existing[0]
+    return meshes
 
 
 def _places(name: str, file: Path) -> list[Path]:

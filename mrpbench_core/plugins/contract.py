@@ -42,10 +42,10 @@ def is_of(cls: type, package: str | tuple[str, ...] = CORE) -> bool:
     """Tell whether a class is of a module whose name begins with `package`, and does not only say so."""
     if not str(cls.__module__).startswith(package):
         return False
-    found: Any = sys.modules.get(cls.__module__)
+    value: Any = sys.modules.get(cls.__module__)
     for name in cls.__qualname__.split("."):
-        found = getattr(found, name, None)
-    return found is cls
+        value = getattr(value, name, None)
+    return value is cls
 
 
 def _frozen(cls: type[Component]) -> bool:

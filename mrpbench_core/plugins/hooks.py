@@ -100,7 +100,7 @@ class Hooks:
             if not caller.has_spec():
                 near = closest(caller.name, _SPECIFIED)
                 return f"there is no hook {caller.name}" + (f"; did you mean {near}?" if near else "")
-            if any(found.hookwrapper or found.wrapper for found in caller.get_hookimpls()):
+            if any(implementation.hookwrapper or implementation.wrapper for implementation in caller.get_hookimpls()):
                 return f"{caller.name} is a wrapper; hooks only observe"
         return None if callers else "it implements no hook; mark functions with mrpbench_core.api.hookimpl"
 

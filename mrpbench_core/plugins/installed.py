@@ -74,14 +74,14 @@ def load(provider: Provider) -> Any:
     name = f"{provider.kind} {provider.name!r} of {provider.origin}"
     with watched(name):
         try:
-            found: Any = importlib.import_module(module.strip())
+            value: Any = importlib.import_module(module.strip())
             for attribute in filter(None, path.strip().split(".")):
-                found = getattr(found, attribute)
+                value = getattr(value, attribute)
         except BaseException as error:
             if is_interrupt(error):
                 raise
             raise InputError(f"{name} cannot be imported: {one_line(error)}") from error
-        return found
+        return value
 
 
 def refresh() -> None:
@@ -99,10 +99,10 @@ def distribution(name: str) -> metadata.Distribution:
 def entry_points() -> list[metadata.EntryPoint]:
     """Return all entry points in the groups of mrpbench, except those of distributions that `unreadable` names."""
     try:
-        found = metadata.entry_points()
+        installed = metadata.entry_points()
     except Exception:  # noqa: BLE001 - one distribution with damaged metadata must not cost the others
         return [entry for entry in _one_by_one()[0] if entry.group.startswith(PREFIX)]
-    return [entry for group in found.groups if group.startswith(PREFIX) for entry in found.select(group=group)]
+    return [entry for group in installed.groups if group.startswith(PREFIX) for entry in installed.select(group=group)]
 
 
 def unreadable() -> dict[str, str]:
@@ -116,15 +116,15 @@ def unreadable() -> dict[str, str]:
 
 def _one_by_one() -> tuple[list[metadata.EntryPoint], dict[str, str]]:
     """All entry points, read in spite of distributions with damaged metadata, and what is wrong with these."""
-    found: dict[str, list[metadata.EntryPoint]] = {}
+    entries: dict[str, list[metadata.EntryPoint]] = {}
     faults = {}
     for owner in metadata.distributions():
         try:
             facts = _facts(owner)  # the first distribution of a name is the one that is imported
-            found.setdefault(facts["distribution"], list(owner.entry_points))
+            entries.setdefault(facts["distribution"], list(owner.entry_points))
         except Exception as error:  # noqa: BLE001 - a file that is no text, a link to itself, and what else there may be
             faults[_folder(owner)] = f"has entry points that cannot be read: {one_line(error)}"
-    return list(chain.from_iterable(found.values())), faults
+    return list(chain.from_iterable(entries.values())), faults
 
 
 def _folder(owner: metadata.Distribution) -> str:
@@ -138,7 +138,7 @@ def _path() -> tuple[str, ...]:
 
 @functools.lru_cache(maxsize=4)
 def _scan(_: tuple[str, ...]) -> dict[str, tuple[Provider, ...]]:
-    found: dict[str, set[Provider]] = {}
+    providers_of: dict[str, set[Provider]] = {}
     owners: dict[int, dict[str, Any]] = {}
     for entry in entry_points():
         if (owner := entry.dist) is not None:
@@ -147,12 +147,12 @@ def _scan(_: tuple[str, ...]) -> dict[str, tuple[Provider, ...]]:
             facts, kind = owners[id(owner)], kind_of(entry.group)
             facts = facts | {"problem": facts["problem"] or GONE.get(kind)}
             provider = Provider(name=entry.name, kind=kind, group=entry.group, value=entry.value, **facts)
-            found.setdefault(entry.group, set()).add(provider)
+            providers_of.setdefault(entry.group, set()).add(provider)
 
     def order(provider: Provider) -> tuple[str, str, str]:
         return provider.name, provider.distribution, provider.value
 
-    return {group: tuple(sorted(offers, key=order)) for group, offers in found.items()}
+    return {group: tuple(sorted(offers, key=order)) for group, offers in providers_of.items()}
 
 
 def _facts(owner: metadata.Distribution) -> dict[str, Any]:

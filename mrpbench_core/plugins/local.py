@@ -77,10 +77,10 @@ def load_local(name: str, folder: Path, sources: Mapping[str, str] | None = None
         module = _import_source(LocalSource(path, text, sibling_imports(path, text, known)))
     else:
         module = _import_module(where)
-    found = getattr(module, attribute, None)
-    if found is None:
+    value = getattr(module, attribute, None)
+    if value is None:
         raise InputError(f"{where} has no {attribute!r}")
-    return found
+    return value
 
 
 def source_of(cls: type) -> LocalSource | None:

@@ -47,24 +47,24 @@ def provenance(value: Any, folder: Path | None = None) -> list[dict[str, Any]]:
 def origin(cls: type[Component], folder: Path | None = None) -> dict[str, Any]:
     """Return kind, name and origin of one class."""
     registry = Registry(kind_class(cls))
-    found: dict[str, Any] = {"kind": registry.kind, "name": registry.name_of(cls, folder)}
+    facts: dict[str, Any] = {"kind": registry.kind, "name": registry.name_of(cls, folder)}
     if source := source_of(cls):
-        return found | {"file": found["name"].partition(":")[0], "sha256": source.sha256}
+        return facts | {"file": facts["name"].partition(":")[0], "sha256": source.sha256}
     provider = registry.provider_of(cls)
     if provider is None and (file := getattr(sys.modules.get(cls.__module__), "__file__", None)):
-        return found | {"file": Path(file).name, "sha256": hashlib.sha256(read_bytes(file)).hexdigest()}
+        return facts | {"file": Path(file).name, "sha256": hashlib.sha256(read_bytes(file)).hexdigest()}
     if provider is not None:
-        found |= {"distribution": provider.distribution, "version": provider.version}
+        facts |= {"distribution": provider.distribution, "version": provider.version}
         if url := direct_url(provider.distribution):
-            found["direct_url"] = url
-    return found
+            facts["direct_url"] = url
+    return facts
 
 
 def title(component: Component) -> str:
     """Kind, name and origin of a component, e.g. `planner 'cbs' of mrpbench-standard 0.1`."""
-    found = origin(type(component))
-    owner = f" of {found['distribution']} {found['version']}" if "distribution" in found else ""
-    return f"{found['kind']} '{found['name']}'{owner}"
+    facts = origin(type(component))
+    owner = f" of {facts['distribution']} {facts['version']}" if "distribution" in facts else ""
+    return f"{facts['kind']} '{facts['name']}'{owner}"
 
 
 def is_of_others(component: Component) -> bool:

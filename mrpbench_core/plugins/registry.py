@@ -39,11 +39,11 @@ class Registry(Generic[C]):
 
     def __iter__(self) -> Iterator[Provider]:
         """Iterate over the installed components by name, without importing them."""
-        found = {(provider.name, provider.distribution): provider for provider in providers(self.group)}
+        offers = {(provider.name, provider.distribution): provider for provider in providers(self.group)}
         for group in getattr(self.base, "old_groups", ()):
             for provider in providers(group):
-                found.setdefault((provider.name, provider.distribution), provider)
-        return iter(found.values())
+                offers.setdefault((provider.name, provider.distribution), provider)
+        return iter(offers.values())
 
     def find(self, name: str) -> Provider:
         """Return the installed component called `name` (or `name@distribution`) without importing it.
@@ -110,8 +110,8 @@ class Registry(Generic[C]):
     def _unknown(self, name: str, part: str, known: list[str]) -> InputError:
         if part not in known and (hint := remedy(part, self.base.group)):
             return InputError(f"no {self.kind} is called {name!r}", hint=hint)
-        found = closest(part, known)
-        hint = f"did you mean {name.replace(part, found)!r}? " if found else ""
+        nearest = closest(part, known)
+        hint = f"did you mean {name.replace(part, nearest)!r}? " if nearest else ""
         listed = f"`mrpbench plugins` lists what is installed: {', '.join(sorted(set(known))) or 'none'}"
         return InputError(f"no {self.kind} is called {name!r}", hint=hint + listed)
 

@@ -23,17 +23,17 @@ def sibling_imports(path: Path, text: str, known: Mapping[Path, str]) -> dict[st
         text: its content.
         known: texts by file. If they contain the plugin itself they are complete, and the folder is not read.
     """
-    found: dict[str, str] = {}
+    texts: dict[str, str] = {}
     unread = [text]
     while unread:
         for name in _imported(unread.pop()):
             file = path.with_name(f"{name}.py")
-            if name in found or name in sys.stdlib_module_names or file == path:
+            if name in texts or name in sys.stdlib_module_names or file == path:
                 continue
             if file in known or (path not in known and file.is_file()):
-                found[name] = known[file] if file in known else read_text(file)
-                unread.append(found[name])
-    return found
+                texts[name] = known[file] if file in known else read_text(file)
+                unread.append(texts[name])
+    return texts
 
 
 def importing(names: Container[str], find: Callable[[str], ModuleType]) -> Callable[..., Any]:

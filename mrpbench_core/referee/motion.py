@@ -220,18 +220,18 @@ def _overlapping(place: Float, level: Int16, radius: Float) -> tuple[Int, Int, I
     order = np.argsort(place[..., 0], axis=1, kind="stable")
     x, y = (np.take_along_axis(place[..., axis], order, axis=1) for axis in (0, 1))
     level, radius = np.take_along_axis(level, order, axis=1), radius[order]
-    found = []
+    overlaps = []
     for apart in range(1, place.shape[1]):
         dx = x[:, apart:] - x[:, :-apart]
         if dx.min(initial=np.inf) >= 2 * radius.max() - DEPTH:
             break
         gap = np.hypot(dx, y[:, apart:] - y[:, :-apart]) - radius[:, apart:] - radius[:, :-apart]
         sample, left = np.nonzero((gap < -DEPTH) & (level[:, apart:] == level[:, :-apart]))
-        found.append((sample, order[sample, left], order[sample, left + apart]))
-    if not found:
+        overlaps.append((sample, order[sample, left], order[sample, left + apart]))
+    if not overlaps:
         nothing: Int = np.zeros(0, np.int64)
         return nothing, nothing, nothing
-    sample, one, other = (np.concatenate(column) for column in zip(*found, strict=True))
+    sample, one, other = (np.concatenate(column) for column in zip(*overlaps, strict=True))
     return sample, one, other
 
 

@@ -61,21 +61,21 @@ def _digest(value: Any, known: dict[int, bytes]) -> bytes:
     """The digest of a value; `known` holds those of containers by `id`, because robots share large goal sets."""
     if id(value) in known:
         return known[id(value)]
-    found = hashlib.blake2b(type(value).__name__.encode(), digest_size=16)
+    digest = hashlib.blake2b(type(value).__name__.encode(), digest_size=16)
     if isinstance(value, np.ndarray):
-        found.update(f"{_name(value.dtype)} {value.shape}".encode() + np.ascontiguousarray(value).tobytes())
-        return found.digest()
+        digest.update(f"{_name(value.dtype)} {value.shape}".encode() + np.ascontiguousarray(value).tobytes())
+        return digest.digest()
     if isinstance(value, tuple) and value and all(type(item) is int for item in value):
-        found.update(np.array(value, np.int64).tobytes())
+        digest.update(np.array(value, np.int64).tobytes())
     elif isinstance(value, tuple):
-        found.update(b"".join([_digest(item, known) for item in value]))
+        digest.update(b"".join([_digest(item, known) for item in value]))
     elif attrs.has(type(value)):
         names = [field.name for field in attrs.fields(type(value)) if field.name != "notes"]
-        found.update(b"".join([_digest(getattr(value, name), known) for name in names]))
+        digest.update(b"".join([_digest(getattr(value, name), known) for name in names]))
     elif isinstance(value, frozenset):
-        found.update(repr(sorted(map(str, value))).encode())
+        digest.update(repr(sorted(map(str, value))).encode())
     else:
-        found.update((str(value) if isinstance(value, Enum) else repr(value)).encode())
-        return found.digest()
-    known[id(value)] = found.digest()
+        digest.update((str(value) if isinstance(value, Enum) else repr(value)).encode())
+        return digest.digest()
+    known[id(value)] = digest.digest()
     return known[id(value)]

@@ -23,10 +23,10 @@ PAIR_COLUMNS = (
 
 def groups_of(report: Report) -> list[dict[str, Any]]:
     """Return for each group its axes, counts, and estimates by column over all units and over common units."""
-    found = []
+    rows = []
     for setting, entries in zip(report.settings, report.numbers, strict=True):
         for group, numbers in zip(setting.groups, entries, strict=True):
-            found.append(
+            rows.append(
                 {
                     "setting": setting.name,
                     "axes": group.axes,
@@ -39,7 +39,7 @@ def groups_of(report: Report) -> list[dict[str, Any]]:
                     "common": {name: _plain(value) for name, value in numbers.common.items()},
                 }
             )
-    return found
+    return rows
 
 
 def pairs_of(comparisons: Iterable[Comparison]) -> list[dict[str, Any]]:
@@ -51,19 +51,19 @@ def pairs_of(comparisons: Iterable[Comparison]) -> list[dict[str, Any]]:
             "first": entry.first,
             "second": entry.second,
             "unit": entry.unit,
-            "pairs": entry.found.difference.n,
+            "pairs": entry.paired.difference.n,
             "unpaired_first": entry.unpaired[0],
             "unpaired_second": entry.unpaired[1],
-            "mean_first": entry.found.first,
-            "mean_second": entry.found.second,
-            "difference": entry.found.difference.value,
-            "low": _number(entry.found.difference.low),
-            "high": _number(entry.found.difference.high),
-            "more": entry.found.above,
-            "same": entry.found.ties,
-            "less": entry.found.below,
-            "effect": entry.found.effect,
-            "p": entry.found.p,
+            "mean_first": entry.paired.first,
+            "mean_second": entry.paired.second,
+            "difference": entry.paired.difference.value,
+            "low": _number(entry.paired.difference.low),
+            "high": _number(entry.paired.difference.high),
+            "more": entry.paired.above,
+            "same": entry.paired.ties,
+            "less": entry.paired.below,
+            "effect": entry.paired.effect,
+            "p": entry.paired.p,
             "p_adjusted": entry.p_adjusted,
             "better": entry.column.better,
             "verdict": entry.verdict,

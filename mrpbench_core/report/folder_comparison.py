@@ -59,7 +59,7 @@ def compare_folders(
     axes = runs.axes()
     matching = _varying_within(runs, axes) if by is None else list(dict.fromkeys(k for a in runs.axes(by) for k in a))
     sides = [_groups(runs, axes, folder, matching) for folder in (0, 1)]
-    found: list[Comparison] = []
+    comparisons: list[Comparison] = []
     no_common_scenario = []
     for key in (key for key in sides[0] if key in sides[1]):
         pair = sides[0][key], sides[1][key]
@@ -67,17 +67,17 @@ def compare_folders(
         name = name_axes(pair[0].axes)
         setting = Setting(name=name, groups=pair, names=("A", "B"), units=units, unit=unit)
         entries = compare_pair(runs, setting, 0, 1, tested(runs, known, columns))
-        found += entries
+        comparisons += entries
         if not entries:
             no_common_scenario.append(name or "all runs")
-    if not found:
+    if not comparisons:
         raise InputError(
             f"have no {'scenario' if no_common_scenario else 'configuration'} in common, so that nothing can be paired",
             file=f"{first.folder.path} and {second.folder.path}",
             hint=f"configurations match by {', '.join(matching) or 'nothing'}; --by chooses other options",
         )
     return FolderComparison(
-        comparisons=tuple(adjusted(found)),
+        comparisons=tuple(adjusted(comparisons)),
         differing=_differing(runs, axes, matching) | _made_differently(folders),
         unmatched=(_missing(sides[0], sides[1]), _missing(sides[1], sides[0])),
         no_common_scenario=tuple(no_common_scenario),
@@ -110,12 +110,12 @@ def _groups(runs: Runs, axes: Sequence[Axes], folder: int, matching: Sequence[st
 
 
 def _differing(runs: Runs, axes: Sequence[Axes], matching: Sequence[str]) -> dict[str, tuple[str, str]]:
-    found = {}
+    differing = {}
     for key in dict.fromkeys(key for entry in axes for key in entry if key not in matching):
         one, other = (_values(runs, axes, folder, key) for folder in (0, 1))
         if one.keys() != other.keys():
-            found[key] = (", ".join(map(word, one.values())), ", ".join(map(word, other.values())))
-    return found
+            differing[key] = (", ".join(map(word, one.values())), ", ".join(map(word, other.values())))
+    return differing
 
 
 def _made_differently(folders: Sequence[Results]) -> dict[str, tuple[str, str]]:

@@ -31,7 +31,7 @@ def write_parquet(folders: Sequence[Results], file: Path) -> None:
     for _, record in each_once(folders):
         for key, value in _row(record | refuted.get(record["run_id"], {})).items():
             kinds.setdefault(key, set()).add(type(value))
-    schema = pa.schema([(key, _arrow(pa, found - {type(None)})) for key, found in kinds.items()])
+    schema = pa.schema([(key, _arrow(pa, types - {type(None)})) for key, types in kinds.items()])
     text = {field.name for field in schema if field.type == pa.string()}
     try:
         with pq.ParquetWriter(file, schema, compression="zstd") as writer:

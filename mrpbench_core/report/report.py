@@ -55,14 +55,14 @@ class Report:
             pairs = pairs_table(self.comparisons, brief=brief)
         else:
             pairs = UNTESTED if any(len(setting.groups) > 1 for setting in self.settings) else None
-        found = (
+        candidates = (
             outcome_table(self.runs, self.settings, self.numbers),
             promises_table(self.runs),
             means,
             common,
             pairs,
         )
-        return [table for table in found if table is not None and (table.rows or table is UNTESTED or not brief)]
+        return [table for table in candidates if table is not None and (table.rows or table is UNTESTED or not brief)]
 
     def failures_first(self) -> Int:
         """Return the indices of all runs: failed ones first, and every configuration in turn."""

@@ -50,7 +50,9 @@ class PageTemplate:
     @property
     def policy(self) -> str:
         """The Content-Security-Policy. `strict-dynamic` allows the modules that an allowed script imports."""
-        sources = {kind: " ".join(f"'sha256-{digest}'" for digest in found) for kind, found in self._allowed.items()}
+        sources = {
+            kind: " ".join(f"'sha256-{digest}'" for digest in digests) for kind, digests in self._allowed.items()
+        }
         return (
             f"default-src 'none'; script-src {sources['script']} 'strict-dynamic'; style-src {sources['style']};"
             " img-src data:; base-uri 'none'; form-action 'none'"
@@ -90,8 +92,8 @@ def _fill(text: str, parts: Mapping[str, str], *, keep: bool = False) -> str:
 
 def _hashes(text: str) -> dict[str, list[str]]:
     """The SHA-256 of each script and each style; elements of data are not scripts."""
-    found: dict[str, list[str]] = {"script": [], "style": []}
+    digests: dict[str, list[str]] = {"script": [], "style": []}
     for kind, attributes, content in _ELEMENT.findall(text):
         if "application/" not in attributes:
-            found[kind].append(b64encode(sha256(content.encode()).digest()).decode())
-    return found
+            digests[kind].append(b64encode(sha256(content.encode()).digest()).decode())
+    return digests

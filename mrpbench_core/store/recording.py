@@ -192,10 +192,10 @@ class Recording:
             self._bound()
             with self._naming("is not a recording"):
                 header = json.loads(self._read("context.json"))
-                self._context, found = header["context"], header["format"]
-                self.instance_name: str | None = header["instance"] if found == FORMAT else None
-            if found not in (FORMAT, INLINE):
-                raise InputError(f"recording of format {found!r:.40}, this version reads {FORMAT}", file=file)
+                self._context, version = header["context"], header["format"]
+                self.instance_name: str | None = header["instance"] if version == FORMAT else None
+            if version not in (FORMAT, INLINE):
+                raise InputError(f"recording of format {version!r:.40}, this version reads {FORMAT}", file=file)
             parts: dict[str, list[str]] = defaultdict(list)
             for name in sorted(set(self._zip.namelist())):
                 channel, _, part = name.rpartition("/")

@@ -83,11 +83,11 @@ class Results:
     @cached_property
     def invocations(self) -> list[Any]:
         """The documents of all invocations, oldest first, without unreadable ones, as in a half-copied folder."""
-        found = []
+        documents = []
         for file in sorted((self.folder.path / "invocations").glob("*.yaml")):
             with suppress(InputError):
-                found.append(yaml.load(file).data if file.is_file() else None)
-        return found
+                documents.append(yaml.load(file).data if file.is_file() else None)
+        return documents
 
     @property
     def _index(self) -> RecordIndex:
@@ -115,11 +115,11 @@ class Results:
         """
         entry = self._index.get(run_id)
         if entry is None:
-            found = [known for known in self._index.rows if known.startswith(run_id)]
-            if len(found) != 1:
+            matching = [known for known in self._index.rows if known.startswith(run_id)]
+            if len(matching) != 1:
                 which = f"begin with {run_id!r}" if run_id else "are here, one must be named"
-                raise KeyError(f"{len(found) or 'no'} runs {which}")
-            entry = self._index.get(found[0])
+                raise KeyError(f"{len(matching) or 'no'} runs {which}")
+            entry = self._index.get(matching[0])
             assert entry is not None
         return read_at(entry.shard, entry.offset)
 
@@ -155,12 +155,12 @@ class Results:
         """
         for part in ("recordings", "exports"):
             for file in (self.folder.path / part).iterdir():
-                found = _ATTEMPT.fullmatch(file.name.removesuffix(".zip"))
-                if found is None or found[0] in self:
+                match = _ATTEMPT.fullmatch(file.name.removesuffix(".zip"))
+                if match is None or match[0] in self:
                     continue
-                entry = self._index.get(found["run_id"])
-                if entry is not None and entry.names_files and entry.attempt != int(found["attempt"]):
-                    self.folder.forget(found["run_id"], int(found["attempt"]))
+                entry = self._index.get(match["run_id"])
+                if entry is not None and entry.names_files and entry.attempt != int(match["attempt"]):
+                    self.folder.forget(match["run_id"], int(match["attempt"]))
         for run_id in self._index.rows:
             if self._index.attempt(run_id) > 1 and self.paths(run_id) != self.folder.run(run_id):
                 self.folder.forget(run_id, 1)

@@ -66,8 +66,8 @@ def _files(folder: Path) -> list[Path]:
     files, waiting = [], [folder] if folder.is_dir() else []
     while waiting:  # `os.walk` calls itself for each level
         here = waiting.pop()
-        with suppress(OSError), os.scandir(here) as found:
-            for entry in filter(lambda entry: entry.name.isprintable(), found):
+        with suppress(OSError), os.scandir(here) as entries:
+            for entry in filter(lambda entry: entry.name.isprintable(), entries):
                 if entry.is_dir(follow_symlinks=False):
                     waiting.append(here / entry.name)
                 elif entry.is_file(follow_symlinks=False):

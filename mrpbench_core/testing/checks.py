@@ -53,5 +53,5 @@ def failed_checks(suite: object) -> dict[str, str]:
 
 def methods(suite: type[object]) -> list[str]:
     """The names of a suite's checks."""
-    found = [name for owner in reversed(suite.__mro__) for name in vars(owner) if name.startswith("test_")]
-    return [name for name in dict.fromkeys(found) if callable(getattr(suite, name))]
+    names = [name for owner in reversed(suite.__mro__) for name in vars(owner) if name.startswith("test_")]
+    return [name for name in dict.fromkeys(names) if callable(getattr(suite, name))]

@@ -35,7 +35,7 @@ def of(found, column="planning.cost"):
 def test_the_same_results_do_not_differ(two):
     found = two({"cbs": costs(5.0)}, {"cbs": costs(5.0)})
     entry = of(found)[""]
-    assert (entry.found.difference.n, entry.found.ties, entry.verdict, found.differing) == (8, 8, "not shown", {})
+    assert (entry.paired.difference.n, entry.paired.ties, entry.verdict, found.differing) == (8, 8, "not shown", {})
 
 
 def test_the_direction_of_a_column_decides_what_is_worse(two):
@@ -59,7 +59,7 @@ def test_options_that_differ_between_the_folders_are_compared(two):
 
 def test_scenarios_that_only_one_has_are_counted(two):
     entry = of(two({"cbs": costs(5.0, range(10))}, {"cbs": costs(5.0, range(4, 11))}))[""]
-    assert (entry.found.difference.n, entry.unpaired) == (6, (4, 1))
+    assert (entry.paired.difference.n, entry.unpaired) == (6, (4, 1))
 
 
 def test_nothing_in_common_is_said(two):

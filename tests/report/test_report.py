@@ -66,9 +66,9 @@ def test_pairs_are_made_on_common_scenarios_only(results, record):
     (cost,) = [
         c for c in make_report([results(records)], ["planning.cost"]).comparisons if c.column.name == "planning.cost"
     ]
-    assert (cost.found.difference.n, cost.unpaired) == (6, (2, 4))
-    assert cost.found.difference.value == pytest.approx(1.45)
-    assert cost.found.p == pytest.approx(2 / 2**6)
+    assert (cost.paired.difference.n, cost.unpaired) == (6, (2, 4))
+    assert cost.paired.difference.value == pytest.approx(1.45)
+    assert cost.paired.p == pytest.approx(2 / 2**6)
     assert cost.verdict == "worse"  # lower is better; the only test that could be significant
 
 
@@ -78,7 +78,7 @@ def test_a_mean_that_points_the_other_way_is_reported(results, record):
     records += [record("b", seed, cost=100.0 if seed == 19 else 11.0 + seed) for seed in range(20)]
     found = make_report([results(records)], ["planning.cost"])
     (cost,) = [c for c in found.comparisons if c.column.name == "planning.cost"]
-    assert cost.found.difference.value < 0 < cost.found.effect
+    assert cost.paired.difference.value < 0 < cost.paired.effect
     assert (cost.is_mixed, cost.verdict) == (True, "worse")
     assert "worse, mean disagrees" in found.tables()[-1].rows[-1]
 
@@ -132,8 +132,8 @@ def test_a_reviewer_recomputes_the_numbers_from_the_lines(results, record, tmp_p
         assert entry.common["planning.cost"].value == pytest.approx(pairs[planner].mean())
         assert entry.common["planning.cost"].n == len(pairs)
     (cost,) = [c for c in found.comparisons if c.column.name == "planning.cost"]
-    assert cost.found.difference.value == pytest.approx((pairs["b"] - pairs["a"]).mean())
-    assert cost.found.p == pytest.approx(p)
+    assert cost.paired.difference.value == pytest.approx((pairs["b"] - pairs["a"]).mean())
+    assert cost.paired.p == pytest.approx(p)
 
 
 def test_localizers_that_were_given_true_poses_are_marked_in_every_table(results, record):

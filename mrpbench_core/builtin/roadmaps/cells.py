@@ -127,9 +127,9 @@ def only_reachable(cells: Cells, place: Int) -> tuple[Cells, Int]:
     Without places they are the cells of the largest connected component.
     """
     label = components(len(cells.cell), cells.edges)
-    found = place[place >= 0]
-    if len(found):
-        kept = np.isin(label, label[found])
+    named = place[place >= 0]
+    if len(named):
+        kept = np.isin(label, label[named])
     else:
         kept = label == np.bincount(label).argmax() if len(label) else np.empty(0, bool)
     number = np.cumsum(kept) - 1

@@ -32,15 +32,15 @@ def with_facilities(roadmap: Roadmap, world: World, radius: float) -> Roadmap:
         return roadmap
     roadmap, notes = avoid_open_doors(_with_lift_edges(roadmap, world), world, radius)
     facilities = Facilities(world)
-    found = [_door(operated, roadmap, radius) for operated in facilities.doors if operated.lift is None]
-    found += [_lift(lift, world, roadmap, radius) for lift in world.lifts]
+    operated_resources = [_door(operated, roadmap, radius) for operated in facilities.doors if operated.lift is None]
+    operated_resources += [_lift(lift, world, roadmap, radius) for lift in world.lifts]
     clashing = [
         attrs.evolve(mutex, name=f"mutex {mutex.name}") if mutex.name in facilities.names else mutex
         for mutex in roadmap.resources
     ]
     return attrs.evolve(
         roadmap,
-        resources=(*clashing, *(resource for resource in found if resource is not None)),
+        resources=(*clashing, *(resource for resource in operated_resources if resource is not None)),
         notes=(*roadmap.notes, *notes),
     )
 

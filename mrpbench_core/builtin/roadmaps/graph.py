@@ -166,7 +166,7 @@ def _mutexes(world: World, pieces: LaneSegments, number: Int, edges: Int) -> tup
     """Return a resource for each mutex. A robot keeps it at a vertex between two of its lanes and no others."""
     names = [lane.mutex for lane in world.lanes]
     named = [str(vertex.parameters.get("mutex", "")) for vertex in world.vertices]
-    found = []
+    mutexes = []
     for name in sorted({*names, *named} - {""}):
         drawn = number[pieces.ends[np.array([names[lane] == name for lane in pieces.lane], bool)]]
         pairs = {tuple(pair) for ends in drawn.tolist() for pair in (ends, ends[::-1])}
@@ -180,8 +180,8 @@ def _mutexes(world: World, pieces: LaneSegments, number: Int, edges: Int) -> tup
             mutex = Resource(
                 name=name, kind="mutex", vertices=tuple(sorted(vertices)), edges=tuple(np.flatnonzero(own).tolist())
             )
-            found.append(mutex)
-    return tuple(found)
+            mutexes.append(mutex)
+    return tuple(mutexes)
 
 
 def _lost(world: World, lost: Bool) -> list[str]:

@@ -105,7 +105,7 @@ def _stops(position: Float, a: int, b: int, passed: Int, tolerance: float) -> In
     on = point_segment_distance(position, start, end) < tolerance
     on[passed] = False
     on[[a, b]] = True
-    found = np.flatnonzero(on)
-    share = (position[found] - start) @ (end - start)
-    share[found == a], share[found == b] = -np.inf, np.inf
-    return found[np.argsort(share, kind="stable")]
+    stops = np.flatnonzero(on)
+    share = (position[stops] - start) @ (end - start)
+    share[stops == a], share[stops == b] = -np.inf, np.inf
+    return stops[np.argsort(share, kind="stable")]

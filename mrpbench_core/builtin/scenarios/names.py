@@ -31,12 +31,12 @@ class Names:
         world = self._world
         if name not in self._indices:
             raise self._unknown(name)
-        found = self._indices[name]
-        where = {(world.vertices[i].x, world.vertices[i].y, world.vertices[i].level) for i in found}
+        vertices = self._indices[name]
+        where = {(world.vertices[i].x, world.vertices[i].y, world.vertices[i].level) for i in vertices}
         if len(where) > 1:
             listed = _listed([f"({x:.2f}, {y:.2f}) on level {level}" for x, y, level in sorted(where)])
             raise InputError(f"{name!r} names {len(where)} places: {listed}")
-        return found[0]
+        return vertices[0]
 
     def matching(self, patterns: Sequence[str]) -> list[int]:
         """Return the indices of the vertices that the patterns name, in which `*` stands for any text.
@@ -44,13 +44,13 @@ class Names:
         Raises:
             InputError: a pattern names none.
         """
-        found: list[int] = []
+        vertices: list[int] = []
         for pattern in patterns:
             names = [name for name in self._indices if fnmatchcase(name, pattern)] if "*" in pattern else [pattern]
             if not names:
                 raise self._unknown(pattern)
-            found += [self.find(name) for name in names]
-        return found
+            vertices += [self.find(name) for name in names]
+        return vertices
 
     def listed(self) -> str:
         """Say which names there are, for hints."""

@@ -58,8 +58,8 @@ def places_of_world(world: World, roadmap: Roadmap | None = None) -> Places:
     vertex = roadmap.locate(places.position, places.level).astype(np.int64)
     if len(roadmap.place) == len(vertex):  # a place that the builder left out must not move to its nearest vertex
         vertex = np.where(roadmap.place == vertex, vertex, -1)
-    found, first = np.unique(vertex, return_index=True)
-    return attrs.evolve(places, vertex=vertex)[np.sort(first[found >= 0])]
+    distinct, first = np.unique(vertex, return_index=True)
+    return attrs.evolve(places, vertex=vertex)[np.sort(first[distinct >= 0])]
 
 
 def places_of_roadmap(roadmap: Roadmap) -> Places:

@@ -22,9 +22,9 @@ class Nearby:
     def __call__(self, x: float, y: float) -> Float:
         """All segments f8[k,4] within `reach` of a point (and some that are farther), in their order."""
         cell = math.floor(x / _CELL), math.floor(y / _CELL)
-        found = self._cells.get(cell)
-        if found is None:
+        segments = self._cells.get(cell)
+        if segments is None:
             centre = np.array([(cell[0] + 0.5) * _CELL, (cell[1] + 0.5) * _CELL])
             distance = point_segment_distance(centre, self._segments[:, :2], self._segments[:, 2:])
-            found = self._cells[cell] = self._segments[distance <= self._reach]
-        return found
+            segments = self._cells[cell] = self._segments[distance <= self._reach]
+        return segments

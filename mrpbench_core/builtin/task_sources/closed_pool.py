@@ -44,11 +44,11 @@ class ClosedPoolStream(TaskStream):
 
     def released(self, now: float, finished: int) -> Sequence[Task]:
         """Return a task for each one that is finished; at first, the whole pool."""
-        found = []
+        tasks = []
         while self._index < min(finished + self._size, self._total):
-            found.append(self._drawing.task(self._index, now))
+            tasks.append(self._drawing.task(self._index, now))
             self._index += 1
-        return found
+        return tasks
 
     @property
     def places(self) -> tuple[Float, Int16]:

@@ -65,12 +65,12 @@ class AnyPlace(DrawnTasks):
 
     def places(self, world: World, roadmap: Roadmap) -> tuple[tuple[Places, int], ...]:
         """Return the same places for each errand."""
-        found = usable_places(world, roadmap)
+        usable = usable_places(world, roadmap)
         needed = min(2, self.errands) * self.places_per_errand
-        if len(found) < needed:
+        if len(usable) < needed:
             lack = f" and needs {needed}" if needed > 2 else ""
-            raise InputError(f"tasks: world {world.name} has {len(found)} places that all robots can reach{lack}")
-        return ((found, self.places_per_errand),) * self.errands
+            raise InputError(f"tasks: world {world.name} has {len(usable)} places that all robots can reach{lack}")
+        return ((usable, self.places_per_errand),) * self.errands
 
 
 @attrs.frozen

@@ -40,12 +40,12 @@ class PoissonStream(TaskStream):
 
     def released(self, now: float, finished: int) -> Sequence[Task]:  # noqa: ARG002
         """Return the tasks that arrived until `now`."""
-        found = []
+        tasks = []
         while self._next <= now:
-            found.append(self._drawing.task(self._index, self._next))
+            tasks.append(self._drawing.task(self._index, self._next))
             self._index += 1
             self._next += self._gap()
-        return found
+        return tasks
 
     @property
     def places(self) -> tuple[Float, Int16]:

@@ -44,5 +44,5 @@ def read_options(words: Sequence[str], what: str) -> dict[str, Any]:
         key, equals, text = word.partition("=")
         if not equals or not key.isidentifier():
             raise InputError(f"{what} {word}: expected KEY=VALUE")
-        options[key] = loads(_PATTERN.sub(lambda found: f'"{found[0]}"', text) or '""').data
+        options[key] = loads(_PATTERN.sub(lambda match: f'"{match[0]}"', text) or '""').data
     return options

@@ -46,8 +46,8 @@ def resolve(name: str) -> tuple[type[Component], str]:
         known = {provider.name for provider in offers}
         hint = remedy(name.partition("@")[0]) or did_you_mean(name, known, "`mrpbench plugins` lists what is installed")
         raise InputError(f"no plugin is called {name!r}", hint=hint)
-    (found,) = kinds
-    return KINDS.get(found) or _own_kind(found, name), name
+    (matching_kind,) = kinds
+    return KINDS.get(matching_kind) or _own_kind(matching_kind, name), name
 
 
 def hook_named(name: str) -> Provider | None:
@@ -60,13 +60,13 @@ def hook_named(name: str) -> Provider | None:
     asked = bool(rest) and singular(kind) == kind_of(HOOKS)
     wanted, _, owner = (rest if asked else name).partition("@")
     hooks = [provider for provider in providers(HOOKS) if owner in ("", provider.distribution)]
-    found = next((provider for provider in hooks if provider.name == wanted), None)
-    if asked and found is None:
+    hook = next((provider for provider in hooks if provider.name == wanted), None)
+    if asked and hook is None:
         known = sorted({provider.name for provider in hooks})
         hint = suggest(rest, known, "`mrpbench plugins hook` lists what is installed:")
         raise InputError(f"no hook is called {rest!r}", hint=hint)
     others = any(provider.name == wanted for provider in installed() if provider.group != HOOKS)
-    return found if asked or not others else None
+    return hook if asked or not others else None
 
 
 def _own_kind(kind: str, name: str) -> type[Component]:

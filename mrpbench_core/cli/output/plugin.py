@@ -107,9 +107,9 @@ def _text(default: Any) -> str:
 
 def _traits(cls: type[Component]) -> dict[str, list[str]]:
     """Return what a planner or metric declares: features, promises, required channels."""
-    found = {}
+    traits = {}
     for key in ("supports", "promises", "requires"):
         value = getattr(cls, key, None)
         if isinstance(value, frozenset):
-            found[key] = sorted(str(getattr(entry, "value", entry)) for entry in value)
-    return found
+            traits[key] = sorted(str(getattr(entry, "value", entry)) for entry in value)
+    return traits

@@ -57,7 +57,7 @@ def make_replays(report: Report, page: Path, most: int, first: Sequence[int] = (
     writer = replay_writer()
     if writer is None:
         return {}
-    found: dict[str, str] = {}
+    addresses: dict[str, str] = {}
     lacking: list[tuple[Results, str, Path]] = []
     there = [{file.name for file in results.folder.path.glob("replay-*.html")} for results in report.folders]
     recorded = [any((results.folder.path / "recordings").glob("*.zip")) for results in report.folders]
@@ -67,14 +67,14 @@ def make_replays(report: Report, page: Path, most: int, first: Sequence[int] = (
         results = report.folders[folder]
         file = results.folder.replay(run_id)
         if file.name in there[folder] and writer.wrote(file):
-            found[run_id] = _address(file, page)
+            addresses[run_id] = _address(file, page)
         elif recorded[folder] and len(lacking) < most and results.paths(run_id).recording.is_file():
             lacking.append((results, run_id, file))
     with slots_of_this_process():  # one worker for all replays
         for results, run_id, file in lacking:
             if try_write_replay(results, run_id, file):
-                found[run_id] = _address(file, page)
-    return found
+                addresses[run_id] = _address(file, page)
+    return addresses
 
 
 def try_write_replay(results: Results, run_id: str, page: Path) -> bool:

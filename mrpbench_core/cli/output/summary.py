@@ -46,19 +46,19 @@ def print_summary(results: Results, limit: int | None = None) -> Counter[str]:
     if not len(runs):
         return Counter()
     groups = group_runs(runs)
-    axes = list(dict.fromkeys(key for found in groups for key in found.axes))
-    statuses = [found.statuses(runs) for found in groups]
+    axes = list(dict.fromkeys(key for group in groups for key in group.axes))
+    statuses = [group.statuses(runs) for group in groups]
     table: dict[str, list[Any]] = {
-        key: [word(found.axes[key]) if key in found.axes else None for found in groups] for key in axes
+        key: [word(group.axes[key]) if key in group.axes else None for group in groups] for key in axes
     }
-    table["runs"] = [len(found.members) for found in groups]
+    table["runs"] = [len(group.members) for group in groups]
     table["succeeded"] = [
-        f"{counts[RunStatus.SUCCEEDED]}/{len(found.counted)}" if len(found.counted) else "n/a"
-        for counts, found in zip(statuses, groups, strict=True)
+        f"{counts[RunStatus.SUCCEEDED]}/{len(group.counted)}" if len(group.counted) else "n/a"
+        for counts, group in zip(statuses, groups, strict=True)
     ]
     others = dict.fromkeys(status for counts in statuses for status in counts if status != RunStatus.SUCCEEDED)
     table |= {status: [counts[status] for counts in statuses] for status in sorted(others, key=LEFT_OUT.__contains__)}
-    table |= {key: [_mean(runs, found, key) for found in groups] for key in shown if key in runs.values}
+    table |= {key: [_mean(runs, group, key) for group in groups] for key in shown if key in runs.values}
     if len(groups) <= ABREAST:
         numbers = [f"#{number + 1}" for number in range(len(groups))]
         print_table(["", *numbers], [[key, *row] for key, row in table.items()])
@@ -75,9 +75,9 @@ def _short(columns: Sequence[str]) -> list[str]:
     return [end if short.count(end) == 1 else column for end, column in zip(short, columns, strict=True)]
 
 
-def _mean(runs: Runs, found: RunGroup, key: str) -> str | None:
-    values = runs.values[key][found.counted]
+def _mean(runs: Runs, group: RunGroup, key: str) -> str | None:
+    values = runs.values[key][group.counted]
     having = values[np.isfinite(values)]
     if not len(having):
         return None
-    return f"{exact(having.mean()):.4g}" + ("" if len(having) == len(found.members) else f" (n={len(having)})")
+    return f"{exact(having.mean()):.4g}" + ("" if len(having) == len(group.members) else f" (n={len(having)})")

@@ -28,8 +28,8 @@ def _code(classes: tuple[type[Component], ...], folder: Path) -> dict[str, Any]:
 def with_versions(origins: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
     """Components as records keep them, without their places, and versions; those of editable checkouts are of now."""
     components: list[dict[str, Any]] = []
-    for found in origins:
-        entry = {key: value for key, value in found.items() if key != "direct_url"}
+    for component in origins:
+        entry = {key: value for key, value in component.items() if key != "direct_url"}
         if "distribution" in entry:
             entry["version"] = version_of(entry["distribution"])
         components.append(entry)
@@ -38,23 +38,23 @@ def with_versions(origins: Iterable[Mapping[str, Any]]) -> dict[str, Any]:
 
 def versions(components: Iterable[Mapping[str, Any]]) -> dict[str, str]:
     """Versions by distribution: the core, those that offer the components, and what these require directly."""
-    found = {name: version_of(name) for name in (CORE, "numpy")}
+    numbers = {name: version_of(name) for name in (CORE, "numpy")}
     for name in {entry["distribution"] for entry in components if "distribution" in entry}:
-        found |= _with_requirements(name)
-    return dict(sorted(found.items()))
+        numbers |= _with_requirements(name)
+    return dict(sorted(numbers.items()))
 
 
 @functools.cache
 def _with_requirements(name: str) -> dict[str, str]:
     owner = distribution(name)
-    found = {name: version_of(name)}
+    numbers = {name: version_of(name)}
     if name == CORE:
-        return found
+        return numbers
     for text in owner.requires or ():
         try:
             requirement = Requirement(text)
             if requirement.marker is None or requirement.marker.evaluate({"extra": ""}):
-                found[requirement.name] = version_of(requirement.name)
+                numbers[requirement.name] = version_of(requirement.name)
         except (InvalidRequirement, UndefinedEnvironmentName, metadata.PackageNotFoundError):
             continue
-    return found
+    return numbers

@@ -38,20 +38,26 @@ def make_instance(question: Question, announce: Announce, timing: dict[str, Any]
         InputError: the settings do not fit the world, the robots or the scenario.
         RunEnded: no planner can solve the scenario, or the tasks cannot be assigned.
     """
-    found = build_run_instance(question, announce)
+    run_instance = build_run_instance(question, announce)
     try:
         if question.executes:
-            _require_free_doorways(found)
+            _require_free_doorways(run_instance)
         if question.tasks is not None:
-            assigned: tuple[int, ...] | None = (-1,) * len(found.fleet)
-            problem = standing_problem(found)
+            assigned: tuple[int, ...] | None = (-1,) * len(run_instance.fleet)
+            problem = standing_problem(run_instance)
         else:
-            assigned = None if question.planner_assigns else assign(question.assigner, found, announce, timing)
-            problem = build_problem(found, assigned, question.assigner, question.goal_sets)
+            assigned = None if question.planner_assigns else assign(question.assigner, run_instance, announce, timing)
+            problem = build_problem(run_instance, assigned, question.assigner, question.goal_sets)
     except RunEnded as ended:
-        ended.scenario_id = found.scenario.id
+        ended.scenario_id = run_instance.scenario.id
         raise
-    return Instance(world=found.world, fleet=found.fleet, scenario=found.scenario, problem=problem, assigned=assigned)
+    return Instance(
+        world=run_instance.world,
+        fleet=run_instance.fleet,
+        scenario=run_instance.scenario,
+        problem=problem,
+        assigned=assigned,
+    )
 
 
 def build_run_instance(question: Question, announce: Announce) -> RunInstance:

@@ -91,15 +91,15 @@ def reap(spared: Collection[int]) -> None:
 
 def _children(pid: int) -> list[int]:
     """The children of all threads of a process."""
-    found: list[int] = []
+    children: list[int] = []
     try:
         if not _LISTED:
             return [child.pid for child in psutil.Process(pid).children()]
         for thread in os.listdir(f"/proc/{pid}/task"):  # noqa: PTH208 - called for every run
-            found += map(int, _read(f"/proc/{pid}/task/{thread}/children").split())
+            children += map(int, _read(f"/proc/{pid}/task/{thread}/children").split())
     except (OSError, psutil.Error):  # it has just ended
         pass
-    return found
+    return children
 
 
 def _read(file: str) -> bytes:

@@ -49,7 +49,7 @@ class Slots:
     def progress(self) -> list[dict[str, Any]]:
         """How far each run is that is being executed; see `Slot.progress`."""
         with self._lock:
-            return [found for slot in self._busy if (found := slot.progress) is not None]
+            return [report for slot in self._busy if (report := slot.progress) is not None]
 
     def close(self) -> None:
         """End every child, and with them the runs in flight."""

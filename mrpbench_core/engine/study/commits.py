@@ -71,9 +71,9 @@ class Commits:
         """
         assert self.going is not None
         going, self.going = self.going, None
-        found = going.result()
+        entries = going.result()
         self.add(())
-        return found
+        return entries
 
     def close(self) -> None:
         """Store what is left.

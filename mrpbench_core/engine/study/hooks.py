@@ -51,15 +51,15 @@ class StudyHooks:
 
 def observers() -> list[dict[str, Any]]:
     """In a worker process: check all hook plugins; return those that observe studies, as plain data."""
-    found = []
+    providers = []
     for provider in enabled_hooks():
         hooks = Hooks()
         with told(f"{provider.kind} {provider.name!r} of {provider.origin}"):
             hooks.load(provider)
             hooks.check()
         if any(map(hooks.has, OBSERVED)):
-            found.append(attrs.asdict(provider))
-    return found
+            providers.append(attrs.asdict(provider))
+    return providers
 
 
 class Observer:

@@ -17,9 +17,9 @@ def read_study(source: Path | str | Mapping[str, Any], overrides: Sequence[str] 
         InputErrors, InputError: what is wrong with it; or a plugin ended the process or did not return.
     """
     given = from_data(source, Location()).data if isinstance(source, Mapping) else str(source)
-    found = in_worker("the configuration cannot be read", packed_study, given, list(overrides))
+    packed = in_worker("the configuration cannot be read", packed_study, given, list(overrides))
     try:
-        return unpack_study(found)
+        return unpack_study(packed)
     except (KeyError, TypeError, ValueError, IndexError) as error:
         raise InputError(f"a plugin changed how configurations are read: {error}") from error
 

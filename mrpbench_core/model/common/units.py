@@ -67,10 +67,10 @@ def exact(text: str, unit: str) -> Fraction:
         ValueError: the text is not such a quantity; the message says why.
     """
     known = ", ".join(sizes(unit))
-    found = _QUANTITY.fullmatch(text.strip(" "))
-    if found is None:
+    match = _QUANTITY.fullmatch(text.strip(" "))
+    if match is None:
         raise ValueError(f"expected a number of {unit}, got {text!r} (units: {known})")
-    number, divisor, written = found.groups()
+    number, divisor, written = match.groups()
     if written is None and divisor is None:
         raise ValueError(f"expected a number of {unit}, got the text {text!r}: remove the quotes or add a unit")
     if written is not None and written not in sizes(unit):

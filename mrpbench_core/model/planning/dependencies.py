@@ -49,9 +49,9 @@ class Dependencies:
     def of(self, move: int) -> list[Dependency]:
         """Return the dependencies of a move; those of all moves of its rotation if it is part of one."""
         group = self._rotation_of.get(move, (move,))
-        found = [dependency for member in group for dependency in self._own(member, group)]
+        dependencies = [dependency for member in group for dependency in self._own(member, group)]
         others = [member for member in group if member != move]
-        return found + [
+        return dependencies + [
             Dependency(int(self.moves.robot[other]), int(self.moves.segment[other]), reached=True) for other in others
         ]
 
@@ -69,7 +69,7 @@ def _rotations(moves: Moves, edges: Type2Edges) -> list[tuple[int, ...]]:
     follows = ~edges.completed & (moves.enter[edges.before] >= moves.enter[edges.after])
     follows &= moves.tail[edges.before] == moves.head[edges.after]
     leader = dict(zip(edges.after[follows].tolist(), edges.before[follows].tolist(), strict=True))
-    found, seen = [], set[int]()
+    rotations, seen = [], set[int]()
     for start in leader:
         trail: dict[int, int] = {}
         move = start
@@ -78,8 +78,8 @@ def _rotations(moves: Moves, edges: Type2Edges) -> list[tuple[int, ...]]:
             trail[move] = len(trail)
             move = leader[move]
         if move in trail:
-            found.append(tuple(trail)[trail[move] :])
-    return found
+            rotations.append(tuple(trail)[trail[move] :])
+    return rotations
 
 
 def first_samples(counts: Int, robot: int, count: int) -> int:

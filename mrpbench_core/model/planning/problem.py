@@ -112,29 +112,29 @@ def ends_of(problem: Problem) -> list[int]:
 
 def features_of(problem: Problem) -> frozenset[Feature]:
     """Return the features that a planner needs to solve `problem`; the caller adds footprints."""
-    found = set()
+    features = set()
     used = problem.roadmap.duration
     if ((used != 1) & (used != -1)).any():
-        found.add(Feature.EDGE_DURATIONS)
+        features.add(Feature.EDGE_DURATIONS)
     if len(np.unique(problem.profile)) > 1 and not (used == used[:1]).all():
-        found.add(Feature.PROFILES)
+        features.add(Feature.PROFILES)
     if problem.roadmap.resources:
-        found.add(Feature.RESOURCES)
+        features.add(Feature.RESOURCES)
     if not np.isnan(problem.roadmap.heading).all():
-        found.add(Feature.HEADINGS)
+        features.add(Feature.HEADINGS)
     if any(len(goal) != 1 for sequence in problem.goals for goal in sequence):
-        found.add(Feature.GOAL_SETS)
+        features.add(Feature.GOAL_SETS)
     if any(len(sequence) != 1 for sequence in problem.goals):
-        found.add(Feature.GOAL_SEQUENCES)
+        features.add(Feature.GOAL_SEQUENCES)
     last = [sequence[-1] for sequence in problem.goals if sequence and len(sequence[-1]) == 1]
     if problem.horizon is not None and len(set(last)) < len(last):
-        found.add(Feature.SHARED_GOALS)
+        features.add(Feature.SHARED_GOALS)
     if problem.committed.any() or problem.ready.any():
-        found.add(Feature.COMMITMENTS)
+        features.add(Feature.COMMITMENTS)
     if problem.since.any():
-        found.add(Feature.SINCE)
+        features.add(Feature.SINCE)
     if problem.horizon is not None:
-        found.add(Feature.HORIZON)
+        features.add(Feature.HORIZON)
     if problem.rules.following == "forbidden":
-        found.add(Feature.FOLLOWING_FORBIDDEN)
-    return frozenset(found)
+        features.add(Feature.FOLLOWING_FORBIDDEN)
+    return frozenset(features)

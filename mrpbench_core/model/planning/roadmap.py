@@ -83,8 +83,8 @@ class Roadmap:
         first of several at one place.
         """
         if self.grid is None:
-            found = [self.nearest(x, y, level) for (x, y), level in zip(points, levels, strict=True)]
-            return np.array([vertex if distance <= 1.0 else -1 for vertex, distance in found], "i4")
+            nearest = [self.nearest(x, y, level) for (x, y), level in zip(points, levels, strict=True)]
+            return np.array([vertex if distance <= 1.0 else -1 for vertex, distance in nearest], "i4")
         rows, columns = self.grid.shape
         table = np.full(rows * columns, -1, "i4")
         flat = self.grid.cell[:, 0] * columns + self.grid.cell[:, 1]
@@ -100,15 +100,15 @@ class Roadmap:
 
         A vertex remains as it is where the yaw is NaN, where no vertex at its place has a heading, and where it is -1.
         """
-        found = np.array(vertices, np.int32)
+        facing = np.array(vertices, np.int32)
         headed = np.flatnonzero(~np.isnan(self.heading))
         position, level, heading = self.position[headed], self.level[headed], self.heading[headed]
-        for index in np.flatnonzero((found >= 0) & ~np.isnan(yaw)).tolist() if len(headed) else ():
-            here = (position == self.position[found[index]]).all(axis=1) & (level == self.level[found[index]])
+        for index in np.flatnonzero((facing >= 0) & ~np.isnan(yaw)).tolist() if len(headed) else ():
+            here = (position == self.position[facing[index]]).all(axis=1) & (level == self.level[facing[index]])
             if here.any():
                 error = np.abs(np.remainder(heading[here] - yaw[index] + np.pi, 2 * np.pi) - np.pi)
-                found[index] = headed[here][error.argmin()]
-        return found
+                facing[index] = headed[here][error.argmin()]
+        return facing
 
     @property
     def distinct(self) -> Int:

@@ -46,10 +46,10 @@ class Task:
 
     def by_errand(self, values: Sequence[Value]) -> tuple[tuple[Value, ...], ...]:
         """Return what is given for each place as one tuple for each errand."""
-        found: list[tuple[Value, ...]] = [()] * self.errands
+        grouped: list[tuple[Value, ...]] = [()] * self.errands
         for errand, value in zip(self.errand.tolist(), values, strict=True):
-            found[errand] += (value,)
-        return tuple(found)
+            grouped[errand] += (value,)
+        return tuple(grouped)
 
 
 @attrs.frozen(kw_only=True)

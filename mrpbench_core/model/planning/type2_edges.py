@@ -66,10 +66,10 @@ def type2_edges(problem: Problem, moves: Moves, resources: Type2Edges, chosen: B
 
     With `chosen` bool[m], only the edges from chosen moves.
     """
-    found = [_at_vertices(problem, moves, chosen), resources]
+    columns = [_at_vertices(problem, moves, chosen), resources]
     if Feature.FOOTPRINTS in problem.features:
-        found += _between_footprints(problem, moves)
-    edges = Type2Edges(*(np.concatenate(parts) for parts in zip(*found, strict=True)))
+        columns += _between_footprints(problem, moves)
+    edges = Type2Edges(*(np.concatenate(parts) for parts in zip(*columns, strict=True)))
     return without_implied(moves, edges if chosen is None else edges.kept(chosen[edges.before]))
 
 
@@ -122,13 +122,13 @@ def _around(vertex: Int, begin: Int, ours: Bool) -> Bool:
     np.maximum.at(high, vertex[ours], begin[ours])
     later = (low[vertex] < never) & (begin > high[vertex])
     np.minimum.at(following, vertex[later], begin[later])
-    found: Bool = (begin >= low[vertex]) & (begin <= following[vertex])
-    return found & (low[vertex] < never)
+    around: Bool = (begin >= low[vertex]) & (begin <= following[vertex])
+    return around & (low[vertex] < never)
 
 
 def _between_footprints(problem: Problem, moves: Moves) -> list[Type2Edges]:
     """Rule 5: for each move and each edge near its own, the last move there before it; one size of robot at a time."""
-    found = []
+    edges = []
     vertices = len(problem.roadmap.position)
     since = int(moves.enter.min(initial=0))  # may be below 0
     ticks = int(moves.enter.max(initial=0)) - since + 1
@@ -149,8 +149,8 @@ def _between_footprints(problem: Problem, moves: Moves) -> list[Type2Edges]:
             some = last >= 0
             row, edge, last = row[some], edge[some], before[last[some]]
             other = (moves.edge[last] == edge) & (moves.robot[last] != moves.robot[row])
-            found.append(Type2Edges(last[other], row[other], np.ones(int(other.sum()), bool)))
-    return found
+            edges.append(Type2Edges(last[other], row[other], np.ones(int(other.sum()), bool)))
+    return edges
 
 
 def without_implied(moves: Moves, all_of: Type2Edges) -> Type2Edges:

@@ -29,11 +29,11 @@ def visited_goals(problem: Problem, robot: Int, head: Int | Int32) -> dict[int, 
         robot: i8[m] the robot of each move, in ascending order, those of a robot in the order of its path.
         head: i4[m] or i8[m] vertex at the end of each move.
     """
-    found = {}
+    visits = {}
     first = np.searchsorted(robot, np.arange(len(problem) + 1)).tolist()
     for index, sequence in enumerate(problem.goals):
         if len(sequence) > 1:
-            found[index] = 0
+            visits[index] = 0
             for vertex in (int(problem.start[index]), *head[first[index] : first[index + 1]].tolist()):
-                found[index] = advance(sequence, found[index], vertex)
-    return found
+                visits[index] = advance(sequence, visits[index], vertex)
+    return visits

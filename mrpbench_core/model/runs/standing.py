@@ -33,12 +33,12 @@ def nearest(blocked: Bool, pose: Float, level: Int, radius: Float) -> Int32:
         level: i[T,n].
         radius: f8[n] metres, of the robots' discs.
     """
-    found = np.full(blocked.shape, -1, np.int32)
+    nearest = np.full(blocked.shape, -1, np.int32)
     for sample in np.flatnonzero(blocked.any(axis=1)).tolist():
         robots = np.flatnonzero(blocked[sample])
         place, floor = pose[sample, :, :2], level[sample]
         gap = np.linalg.norm(place[robots, None] - place, axis=2) - radius[robots, None] - radius
         gap[(floor[robots, None] != floor) | (robots[:, None] == np.arange(len(floor)))] = np.inf
         other = gap.argmin(axis=1)
-        found[sample, robots] = np.where(gap[np.arange(len(robots)), other] <= NEAR, other, -1)
-    return found
+        nearest[sample, robots] = np.where(gap[np.arange(len(robots)), other] <= NEAR, other, -1)
+    return nearest

@@ -37,11 +37,11 @@ def switches(problem: Problem, plans: Sequence[RecordedPlan], time: Float, reach
         time: f8[T].
         reached: i4[T,n] segments that robots have completed.
     """
-    found: list[Switch] = []
+    changes: list[Switch] = []
     for plan, span in spans(plans, time):
         if plan.plan is not None:
-            found += _of_plan(problem, plan.plan, time[span], reached[span])
-    return sorted(found)
+            changes += _of_plan(problem, plan.plan, time[span], reached[span])
+    return sorted(changes)
 
 
 def _of_plan(problem: Problem, plan: Plan, time: Float, reached: Int) -> list[Switch]:
@@ -66,8 +66,8 @@ def _of_plan(problem: Problem, plan: Plan, time: Float, reached: Int) -> list[Sw
 
 def _first(reached: Int, robot: Int, count: Int) -> Int:
     """The first sample i8[k] at which each `robot` i8[k] has completed `count` i8[k] segments; T if there is none."""
-    found = np.full(len(robot), len(reached))
+    first = np.full(len(robot), len(reached))
     for own in np.unique(robot).tolist():
         rows = robot == own
-        found[rows] = np.searchsorted(reached[:, own], count[rows])
-    return found
+        first[rows] = np.searchsorted(reached[:, own], count[rows])
+    return first

@@ -30,27 +30,29 @@ def change(ranking: Ranking, difference: IntervalEstimate) -> str:
 
 def span(ranking: Ranking) -> str:
     """Write the least and the largest mean, of those over the same units if there are several."""
-    found = [place for place in ranking.places if place.estimate is not None]
-    whole = [place for place in found if not place.fails_more]
-    values = sorted(place.estimate.value for place in (whole if len(whole) > 1 else found) if place.estimate)
+    ranked = [place for place in ranking.places if place.estimate is not None]
+    whole = [place for place in ranked if not place.fails_more]
+    values = sorted(place.estimate.value for place in (whole if len(whole) > 1 else ranked) if place.estimate)
     low, high = (_bare(ranking, value) for value in (values[0], values[-1]))
     return low if low == high else f"{low} to {high}"
 
 
 def largest(ranking: Ranking, places: Sequence[Place]) -> str | None:
     """Write the largest difference to the first place that the intervals allow; None without intervals."""
-    found = [place.difference for place in places if place.difference is not None and place.difference.has_interval]
-    if not found:
+    differences = [
+        place.difference for place in places if place.difference is not None and place.difference.has_interval
+    ]
+    if not differences:
         return None
-    widest = max(max(abs(one.low), abs(one.high)) for one in found)
+    widest = max(max(abs(one.low), abs(one.high)) for one in differences)
     return _bare(ranking, widest, points=True)
 
 
 def reading(ranking: Ranking) -> str:
     """Say over what the means are, which way is better, and which differences do not matter."""
-    column, found = ranking.column, [place.estimate for place in ranking.places if place.estimate is not None]
+    column, estimates = ranking.column, [place.estimate for place in ranking.places if place.estimate is not None]
     told = f"{'Share' if ranking.is_rate else 'Mean'} over {ranking.ranked} {ranking.unit}"
-    told += " [95 % interval]." if any(estimate.has_interval for estimate in found) else "."
+    told += " [95 % interval]." if any(estimate.has_interval for estimate in estimates) else "."
     told += {1: " More is better.", -1: " Less is better."}.get(direction(column), "")
     if column.threshold is None:
         return f"{told} The metric states no threshold."
@@ -75,8 +77,10 @@ def _bare(ranking: Ranking, value: float, *, points: bool = False) -> str:
     return _written(ranking, IntervalEstimate(value, math.nan, math.nan, 1), points=points)
 
 
-def _written(ranking: Ranking, found: IntervalEstimate, way: str = "", *, points: bool = False) -> str:
-    ends = tuple(map(exact, (found.value, found.low, found.high) if found.high > found.low else (found.value,)))
+def _written(ranking: Ranking, estimate: IntervalEstimate, way: str = "", *, points: bool = False) -> str:
+    ends = tuple(
+        map(exact, (estimate.value, estimate.low, estimate.high) if estimate.high > estimate.low else (estimate.value,))
+    )
     factor, unit = scale(ranking, max(map(abs, ends)))
     unit = "points" if points and ranking.is_rate else unit
     value, *interval = (end * factor for end in ends)

@@ -135,7 +135,7 @@ def _answer(
     further: Callable[[Ranking], list[str]] = lambda _: [],
     noun: str = "configurations",
 ) -> SettingAnswer:
-    found = []
+    answers = []
     for topic in topics:
         first, *others = (rank(runs, setting, column, compared) for column in topic.columns)
         more = (
@@ -143,11 +143,11 @@ def _answer(
             for ranking in others
             if ranking.having(Relation.WORSE, Relation.BETTER)
         )
-        found.append(
+        answers.append(
             TopicAnswer(title=topic.title, ranking=first, sentences=(*sentences(first), *further(first), *more))
         )
-    asked = [(topic.noun, entry.ranking) for topic, entry in zip(topics, found, strict=True)]
+    asked = [(topic.noun, entry.ranking) for topic, entry in zip(topics, answers, strict=True)]
     head = headline(asked, noun, identical=is_identical(compared), tasks=has_tasks(runs))
     return SettingAnswer(
-        name=setting.name, setting=setting, headline=head.sentence, advice=head.advice, topics=tuple(found)
+        name=setting.name, setting=setting, headline=head.sentence, advice=head.advice, topics=tuple(answers)
     )

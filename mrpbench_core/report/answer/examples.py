@@ -57,8 +57,8 @@ def choose_examples(report: Report, answer: Answer) -> list[Examples]:
     if not any(any((results.folder.path / "recordings").glob("*.zip")) for results in report.folders):
         return []
     parts = answer.parts or ((answer.whole,) if answer.whole else ())
-    found = (_of_setting(report, part) for part in parts)
-    return list(islice((examples for examples in found if examples.runs), SETTINGS))
+    chosen = (_of_setting(report, part) for part in parts)
+    return list(islice((examples for examples in chosen if examples.runs), SETTINGS))
 
 
 def _of_setting(report: Report, part: SettingAnswer) -> Examples:

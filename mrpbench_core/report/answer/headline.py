@@ -64,15 +64,15 @@ def headline(
 
 def _faults(rankings: Rankings, names: Sequence[str]) -> dict[str, str]:
     """What speaks against each configuration against which something speaks: `b is noticeably worse in time`."""
-    found = {}
+    faults = {}
     for name in names:
         worse = _in(rankings, name, lambda place: place.relation is Relation.WORSE)
         without = _in(rankings, name, lambda place: place.estimate is None)
         if worse:
-            found[name] = f"{name} {_WORSE} in {listed(worse)}"
+            faults[name] = f"{name} {_WORSE} in {listed(worse)}"
         elif without:
-            found[name] = f"{name} has no value of {listed(without)}"
-    return found
+            faults[name] = f"{name} has no value of {listed(without)}"
+    return faults
 
 
 def _ahead(good: Sequence[str], faults: Sequence[str]) -> str:

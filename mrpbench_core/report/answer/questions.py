@@ -58,14 +58,14 @@ def find_topics(runs: Runs, compared: Sequence[Column]) -> list[Topic]:
     having = [column for column in compared if np.isfinite(runs.values[column.name]).any()]
     topics, kind = [], _kind(runs)
     for question in get_args(Question):
-        found = [column for column in having if column.answers == question]
+        matching = [column for column in having if column.answers == question]
         # Rates and primary columns; others only if nothing else answers.
-        found = [column for column in found if column.primary or question == "arrival"] or found
-        if not found:
+        matching = [column for column in matching if column.primary or question == "arrival"] or matching
+        if not matching:
             continue
         # What happened counts more than what was planned.
-        ranking = next((c for c in found if c.stage == "execution"), found[0])
-        others = (c for c in found if c is not ranking and (c.stage == ranking.stage or question == "arrival"))
+        ranking = next((c for c in matching if c.stage == "execution"), matching[0])
+        others = (c for c in matching if c is not ranking and (c.stage == ranking.stage or question == "arrival"))
         title, noun = _OTHERWISE.get((question, kind), (TITLES[question], NOUNS[question]))
         if (question == "duration" and kind == "tasks") or (question == "planning" and ranking.unit != "s"):
             title, noun = _named(ranking)  # runs with tasks over time end when they are told to

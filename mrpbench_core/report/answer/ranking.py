@@ -76,9 +76,9 @@ def by_names(comparisons: Iterable[Comparison], setting: str) -> Compared:
 
 def is_identical(compared: Compared) -> bool:
     """Tell whether the configurations have the same values in all pairs; what the engine measures does not count."""
-    found = [entry for (column, _), entry in compared.items() if not column.startswith("timing.")]
-    has_values = any(not entry.is_rate for entry in found)  # that all succeed says little
-    return has_values and all(entry.found.ties == entry.found.difference.n for entry in found)
+    comparisons = [entry for (column, _), entry in compared.items() if not column.startswith("timing.")]
+    has_values = any(not entry.is_rate for entry in comparisons)  # that all succeed says little
+    return has_values and all(entry.paired.ties == entry.paired.difference.n for entry in comparisons)
 
 
 def rank(runs: Runs, setting: Setting, column: Column, compared: Compared) -> Ranking:
@@ -119,8 +119,8 @@ def rank(runs: Runs, setting: Setting, column: Column, compared: Compared) -> Ra
 def fail_more(runs: Runs, setting: Setting, column: Column) -> list[bool]:
     """Tell for each group whether its rate of success in the column's stage is lower than that of another one."""
     rates = [estimate(runs, setting, group, _RATE[column.stage]) for group in setting.groups]
-    best = max((found.value for found in rates if found is not None), default=0.0)
-    return [found is not None and found.value < best - _CLOSE + 1e-9 for found in rates]
+    best = max((rate.value for rate in rates if rate is not None), default=0.0)
+    return [rate is not None and rate.value < best - _CLOSE + 1e-9 for rate in rates]
 
 
 def failures(runs: Runs, group: RunGroup) -> str:
@@ -151,8 +151,8 @@ def _order(place: Place, sign: int) -> tuple[bool, bool, float, str]:
 def _related(place: Place, first: Place, column: Column, compared: Compared) -> Place:
     if place.estimate is None:
         return place
-    found = compared.get((column.name, frozenset((first.name, place.name))))
-    if found is None:
+    comparison = compared.get((column.name, frozenset((first.name, place.name))))
+    if comparison is None:
         return attrs.evolve(place, relation=Relation.NOT_COMPARED)
-    found = found if found.second == place.name else turned(found)
-    return attrs.evolve(place, relation=relation(found), difference=found.found.difference)
+    comparison = comparison if comparison.second == place.name else turned(comparison)
+    return attrs.evolve(place, relation=relation(comparison), difference=comparison.paired.difference)

@@ -50,10 +50,10 @@ def exceptions(effect: Effect, within: Compared, ranking: Ranking) -> list[str]:
     for rest in effect.others:
         for place in others:
             names = effect.combined[first.name, rest], effect.combined[place.name, rest]
-            found = within.get((ranking.column.name, frozenset(names)))
-            if found is None:
+            comparison = within.get((ranking.column.name, frozenset(names)))
+            if comparison is None:
                 continue
-            here = relation(found if found.second == names[1] else turned(found))
+            here = relation(comparison if comparison.second == names[1] else turned(comparison))
             if here in (Relation.BETTER, Relation.WORSE) and here is not place.relation:
                 told.append(f"With {rest}, {place.name} is {here.value} than {first.name}.")
     return told if len(told) <= NAMED else [*told[:NAMED], f"{len(told) - NAMED} more combinations are exceptions."]
@@ -90,19 +90,24 @@ def _first(ranking: Ranking, first: Place, others: Sequence[Place]) -> list[str]
     told = [f"{first.name} has the best mean: {quantity(ranking, first.estimate)}."]
     if alike:
         told.append(f"{listed(alike)} {'differs' if len(alike) == 1 else 'differ'} too little from it to matter.")
-    if found := [place.name for place in unknown if place.relation is Relation.OPEN]:
-        told.append(f"There is no clear difference to {listed(found)}.")
-    if found := [place.name for place in unknown if place.relation is Relation.NOT_COMPARED]:
-        told.append(f"{listed(found)} {_is_or_are(found)} not compared with it.")
+    if names := [place.name for place in unknown if place.relation is Relation.OPEN]:
+        told.append(f"There is no clear difference to {listed(names)}.")
+    if names := [place.name for place in unknown if place.relation is Relation.NOT_COMPARED]:
+        told.append(f"{listed(names)} {_is_or_are(names)} not compared with it.")
     return told
 
 
 def _of_two(ranking: Ranking, place: Place) -> list[str]:
     """Say how the second of two differs in numbers, where a difference is neither shown nor excluded."""
-    found = place.difference
-    if place.relation not in (*_ALIKE, Relation.OPEN) or found is None or not found.has_interval or not found.value:
+    difference = place.difference
+    if (
+        place.relation not in (*_ALIKE, Relation.OPEN)
+        or difference is None
+        or not difference.has_interval
+        or not difference.value
+    ):
         return []
-    return [f"{place.name} has {change(ranking, found)}."]
+    return [f"{place.name} has {change(ranking, difference)}."]
 
 
 def _apart(ranking: Ranking, place: Place) -> str:

@@ -27,7 +27,7 @@ class Comparison:
     unit: str
     column: Column
     is_rate: bool
-    found: Difference
+    paired: Difference
     unpaired: tuple[int, int]
     """Number of units of each group that have a value but no partner."""
     p_adjusted: float = 1.0
@@ -37,20 +37,22 @@ class Comparison:
     @property
     def is_mixed(self) -> bool:
         """True if the mean and the ranks, which decide the verdict, have different signs."""
-        return self.found.effect * self.found.difference.value < 0
+        return self.paired.effect * self.paired.difference.value < 0
 
     @property
     def verdict(self) -> str:
         """The verdict on the second: better, worse, different (where no direction is known), or not shown to differ."""
         if self.p_adjusted >= SIGNIFICANT:
             return "not shown"
-        return {1: "better", -1: "worse", 0: "different"}[direction(self.column) * (1 if self.found.effect > 0 else -1)]
+        return {1: "better", -1: "worse", 0: "different"}[
+            direction(self.column) * (1 if self.paired.effect > 0 else -1)
+        ]
 
 
 def compare_pair(runs: Runs, setting: Setting, first: int, second: int, columns: Iterable[Column]) -> list[Comparison]:
     """Compare two groups of a setting in every column in which both have values for a common unit."""
     sides = setting.groups[first], setting.groups[second]
-    found = []
+    comparisons = []
     for column in columns:
         (one, left, _), (other, right, _) = (group.by_unit(runs, setting.units, column.name) for group in sides)
         both, at_left, at_right = np.intersect1d(one, other, assume_unique=True, return_indices=True)
@@ -58,7 +60,7 @@ def compare_pair(runs: Runs, setting: Setting, first: int, second: int, columns:
         left, right = (setting.by_sample(both, values) for values in (left[at_left], right[at_right]))
         difference = (compare_rates if is_rate else compare_values)(left, right)
         if difference is not None:
-            found.append(
+            comparisons.append(
                 Comparison(
                     setting=setting.name,
                     first=setting.names[first],
@@ -66,25 +68,25 @@ def compare_pair(runs: Runs, setting: Setting, first: int, second: int, columns:
                     unit=setting.unit,
                     column=column,
                     is_rate=is_rate,
-                    found=difference,
+                    paired=difference,
                     unpaired=(len(one) - len(both), len(other) - len(both)),
                     steps=right - left,
                 )
             )
-    return found
+    return comparisons
 
 
 def compare_settings(runs: Runs, settings: Sequence[Setting], columns: Sequence[Column]) -> list[Comparison]:
     """Compare all pairs of groups of a setting that differ in one choice; p is adjusted for the number of tests."""
-    found = []
+    comparisons = []
     for setting in settings:
         for (i, first), (j, second) in combinations(enumerate(setting.groups), 2):
             if len(differing_factors(first.axes, second.axes)) == 1:
-                found += compare_pair(runs, setting, i, j, columns)
-    return adjusted(found)
+                comparisons += compare_pair(runs, setting, i, j, columns)
+    return adjusted(comparisons)
 
 
 def adjusted(comparisons: Sequence[Comparison]) -> list[Comparison]:
     """Return the comparisons with p adjusted for the number of tests."""
-    p = adjust([entry.found for entry in comparisons])
+    p = adjust([entry.paired for entry in comparisons])
     return [attrs.evolve(entry, p_adjusted=value) for entry, value in zip(comparisons, p, strict=True)]

@@ -28,11 +28,11 @@ class RunGroup:
 
     def by_unit(self, runs: Runs, units: Int, column: str) -> tuple[Int, Float, int]:
         """Return the units with a value, the mean over the runs of each unit, and the number of these runs."""
-        found = runs.values[column][self.counted]
-        having = np.isfinite(found)
+        values = runs.values[column][self.counted]
+        having = np.isfinite(values)
         numbers, place = np.unique(units[self.counted][having], return_inverse=True)
         count = np.bincount(place, minlength=len(numbers))
-        total = np.bincount(place, weights=found[having], minlength=len(numbers))
+        total = np.bincount(place, weights=values[having], minlength=len(numbers))
         return numbers, total / np.maximum(count, 1), int(having.sum())
 
 

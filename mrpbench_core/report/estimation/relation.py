@@ -35,9 +35,9 @@ class Relation(StrEnum):
 
 def relation(comparison: Comparison) -> Relation:
     """Return what is known of the second group, compared with the first."""
-    found, column = comparison.found, comparison.column
-    difference, threshold = found.difference, least_noticeable(comparison)
-    if found.ties == difference.n:
+    paired, column = comparison.paired, comparison.column
+    difference, threshold = paired.difference, least_noticeable(comparison)
+    if paired.ties == difference.n:
         return Relation.IDENTICAL
     if not is_shown(comparison):
         alike = threshold is not None and difference.has_interval
@@ -52,35 +52,35 @@ def relation(comparison: Comparison) -> Relation:
 
 def is_shown(comparison: Comparison) -> bool:
     """True if the data show that the means differ: the test is significant, and the interval excludes 0 on its side."""
-    found = comparison.found
-    one_side = found.difference.low > 0 or found.difference.high < 0
+    paired = comparison.paired
+    one_side = paired.difference.low > 0 or paired.difference.high < 0
     return comparison.p_adjusted < SIGNIFICANT and one_side and not comparison.is_mixed
 
 
 def least_noticeable(comparison: Comparison) -> float | None:
     """Return the smallest difference of these means that matters; None if the column declares no threshold."""
-    column, found = comparison.column, comparison.found
+    column, paired = comparison.column, comparison.paired
     if column.threshold is None:
         return None
-    return max(column.threshold, column.threshold_share * max(abs(found.first), abs(found.second)))
+    return max(column.threshold, column.threshold_share * max(abs(paired.first), abs(paired.second)))
 
 
 def turned(comparison: Comparison) -> Comparison:
     """Return the comparison of the first group with the second."""
-    found = comparison.found
-    step = found.difference
+    paired = comparison.paired
+    step = paired.difference
     return attrs.evolve(
         comparison,
         first=comparison.second,
         second=comparison.first,
         unpaired=comparison.unpaired[::-1],
-        found=attrs.evolve(
-            found,
+        paired=attrs.evolve(
+            paired,
             difference=IntervalEstimate(-step.value, -step.high, -step.low, step.n),
-            first=found.second,
-            second=found.first,
-            above=found.below,
-            below=found.above,
-            effect=-found.effect,
+            first=paired.second,
+            second=paired.first,
+            above=paired.below,
+            below=paired.above,
+            effect=-paired.effect,
         ),
     )

@@ -66,11 +66,11 @@ def intervals(
     rows: Sequence[tuple[str, int, IntervalEstimate | None]], label: str, *, percent: bool, log: bool = False
 ) -> str:
     """Draw one row per group: a mark at the estimate and a line over its interval."""
-    found = [entry for _, _, entry in rows if entry is not None]
-    if not found:
+    estimates = [entry for _, _, entry in rows if entry is not None]
+    if not estimates:
         return ""
     factor = 100.0 if percent else 1.0
-    ends = [value * factor for entry in found for value in (entry.value, entry.low, entry.high) if value == value]
+    ends = [value * factor for entry in estimates for value in (entry.value, entry.low, entry.high) if value == value]
     left = min(220, 30 + 7 * max(len(name) for name, _, _ in rows))
     height = _TOP + _ROW * len(rows) + _BOTTOM
     x = Scale(*((0.0, 100.0) if percent else spread(ends, log)), left, _WIDTH - _RIGHT - 6, log)

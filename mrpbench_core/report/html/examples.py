@@ -36,9 +36,9 @@ def _setting(
     title = f"<h3>{escape(examples.name)}</h3>" if examples.name else ""
     cards = [_world(report, examples.runs[0]), *(_card(report, example, replays) for example in examples.runs)]
     contrast = ""
-    if found := examples.contrast:
-        ids = (report.runs.run_id[found.first], report.runs.run_id[found.second])
-        words = f"{escape(found.text)}."
+    if pair := examples.contrast:
+        ids = (report.runs.run_id[pair.first], report.runs.run_id[pair.second])
+        words = f"{escape(pair.text)}."
         if ids in pairs:
             contrast = f'<p>{words} <a href="{escape(pairs[ids])}">Why? Both replays side by side</a></p>'
         else:

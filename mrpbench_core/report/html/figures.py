@@ -24,9 +24,9 @@ def figures(report: Report) -> str:
     parts = []
     for setting, numbers in zip(report.settings, report.numbers, strict=True):
         title = f"<h3>{escape(setting.name)}</h3>" if setting.name else ""
-        found = [*_rates(setting, numbers), *_means(report, setting, numbers), *_curves(report, setting)]
+        charts = [*_rates(setting, numbers), *_means(report, setting, numbers), *_curves(report, setting)]
         cards = "".join(
-            f"<figure>{chart}<figcaption>{escape(text)}</figcaption></figure>" for chart, text in found if chart
+            f"<figure>{chart}<figcaption>{escape(text)}</figcaption></figure>" for chart, text in charts if chart
         )
         parts.append(
             f'<section class="setting">{title}{legend(setting.names)}<div class="charts">{cards}</div></section>'
@@ -54,7 +54,7 @@ def _rates(setting: Setting, numbers: Sequence[Numbers]) -> list[tuple[str, str]
 
 
 def _means(report: Report, setting: Setting, numbers: Sequence[Numbers]) -> list[tuple[str, str]]:
-    found = []
+    charts = []
     for column in report.columns:
         if column.name in report.runs.flags:
             continue
@@ -64,15 +64,15 @@ def _means(report: Report, setting: Setting, numbers: Sequence[Numbers]) -> list
         has_intervals = any(entry.has_interval for _, _, entry in rows if entry is not None)
         text = f"Mean over the {count} {setting.unit} that all groups have in common"
         text += f"{'; bootstrap 95 %' if has_intervals else ''}.{best}"
-        found.append((intervals(rows, heading(column), percent=False), text))
-    return found
+        charts.append((intervals(rows, heading(column), percent=False), text))
+    return charts
 
 
 def _curves(report: Report, setting: Setting) -> list[tuple[str, str]]:
     if len(setting.groups) < 2:
         return []
     units = np.unique(np.concatenate([setting.units[group.counted] for group in setting.groups]))
-    found = []
+    charts = []
     for column in report.profiled:
         table = [_on(report.runs, setting, group, column, units) for group in setting.groups]
         if not any(np.isfinite(row).any() for row in table):
@@ -83,7 +83,7 @@ def _curves(report: Report, setting: Setting) -> list[tuple[str, str]]:
             y_label = f"{setting.unit} {rate}"
             chart = steps(curves, heading(column), y_label, log_x=True, start=0.0, top=float(len(units)))
             text = f"Cactus plot: how many of the {len(units)} {setting.unit} {done} within each {column.name}."
-            found.append((chart, text))
+            charts.append((chart, text))
         curves = [
             Curve(name, index, *curve)
             for (index, name), curve in zip(enumerate(setting.names), profiles(table), strict=True)
@@ -91,8 +91,8 @@ def _curves(report: Report, setting: Setting) -> list[tuple[str, str]]:
         x_label, y_label = f"{column.name}, ratio to the best", f"share of {setting.unit}"
         chart = steps(curves, x_label, y_label, log_x=_wide(curves), start=0.0, top=1.0)
         over = f"over {len(units)} {setting.unit}; those without a value never count"
-        found.append((chart, f"Performance profile (Dolan and Moré 2002) {over}."))
-    return found
+        charts.append((chart, f"Performance profile (Dolan and Moré 2002) {over}."))
+    return charts
 
 
 def _wide(curves: Sequence[Curve]) -> bool:

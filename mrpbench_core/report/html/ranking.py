@@ -45,8 +45,8 @@ def _axis(ranking: Ranking, places: tuple[Place, ...]) -> tuple[float, str, Scal
     """Return the factor and the unit of the numbers, their axis, and the band of differences that do not matter."""
     first = ranking.places[0].estimate
     assert first is not None
-    found = [place.estimate for place in places if place.estimate is not None]
-    ends = [end for one in found for end in (one.value, one.low, one.high) if end == end]
+    estimates = [place.estimate for place in places if place.estimate is not None]
+    ends = [end for one in estimates for end in (one.value, one.low, one.high) if end == end]
     factor, unit = scale(ranking, max(map(abs, ends)))
     band = None
     if ranking.column.threshold is not None:
@@ -89,12 +89,12 @@ def _picture(place: Place, factor: float, axis: Scale, band: tuple[float, float]
     if band is not None:
         left, right = axis.at(band[0]), axis.at(band[1])
         parts.append(f'<rect class="band" x="{left:.1f}" y="0" width="{max(1.0, right - left):.1f}" height="{_ROW}"/>')
-    if (found := place.estimate) is not None:
+    if (estimate := place.estimate) is not None:
         line = ""
-        if found.has_interval:
-            low, high = axis.at(factor * found.low), axis.at(factor * found.high)
+        if estimate.has_interval:
+            low, high = axis.at(factor * estimate.low), axis.at(factor * estimate.high)
             line = f'<line x1="{low:.1f}" x2="{high:.1f}" y1="{middle}" y2="{middle}"/>'
-        drawn = mark(place.style, axis.at(factor * found.value), middle)
+        drawn = mark(place.style, axis.at(factor * estimate.value), middle)
         parts.append(f'<g class="mark s{place.style % STYLES}">{line}{drawn}</g>')
     return f'<svg viewBox="0 0 {_WIDTH} {_ROW}" aria-hidden="true">{"".join(parts)}</svg>'
 

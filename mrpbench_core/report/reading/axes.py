@@ -52,10 +52,10 @@ def name_axes(axes: Axes) -> str:
 
 def factors(axes: Axes) -> dict[str, Axes]:
     """Group axes by their block, so that a planner and its options are one choice."""
-    found: dict[str, Axes] = {}
+    factors: dict[str, Axes] = {}
     for key, value in axes.items():
-        found.setdefault(key.partition(".")[0], {})[key] = value
-    return found
+        factors.setdefault(key.partition(".")[0], {})[key] = value
+    return factors
 
 
 def word(value: Any) -> str:
@@ -77,7 +77,7 @@ def _labelled(configs: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
         for key, block in config.items():
             if label := _label(block):
                 blocks.setdefault((key, label), set()).add(repr(block))
-    clear = {name for name, found in blocks.items() if len(found) == 1}
+    clear = {name for name, labels in blocks.items() if len(labels) == 1}
     return [
         {key: {"plugin": _label(block)} if (key, _label(block)) in clear else block for key, block in config.items()}
         for config in configs

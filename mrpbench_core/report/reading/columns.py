@@ -158,14 +158,14 @@ def _metric_of(name: str) -> str:
 def _installed(metrics: Iterable[str]) -> dict[str, Any]:
     """The declarations of the installed ones of these metrics, by name of the column."""
     there = {provider.name for provider in providers(Metric.group)}
-    found: dict[str, Any] = {}
+    columns: dict[str, Any] = {}
     with slots_of_this_process():  # one worker for all metrics
         for metric in filter(there.__contains__, metrics):
             try:
-                found |= _described(metric)
+                columns |= _described(metric)
             except InputError as error:
                 _LOG.warning("%s", error)
-    return found
+    return columns
 
 
 @cache

@@ -59,19 +59,19 @@ class Claims:
         witness = np.where(assigns, any_assignment, same)
         least = np.where(witness >= 0, cost[witness], np.inf) if len(cost) else cost
         limit = np.where(np.isfinite(least), factor * least, np.inf)
-        found = {}
+        faults = {}
         for index in np.flatnonzero((cost > limit * (1 + SLACK)) | (bound > least * (1 + SLACK))).tolist():
             other = f"run {run_id[witness[index]][:12]} has a valid plan of cost {least[index]:g}"
             if bound[index] > least[index] * (1 + SLACK):
-                found[index] = f"claims the lower bound {bound[index]:g}, but {other}"
+                faults[index] = f"claims the lower bound {bound[index]:g}, but {other}"
             else:
                 allowed = f"at most {factor[index]:g} times the least cost"
                 promised = "the least cost" if factor[index] == 1 else allowed
-                found[index] = f"promises {promised} and costs {cost[index]:g}, but {other}"
+                faults[index] = f"promises {promised} and costs {cost[index]:g}, but {other}"
         for index in np.flatnonzero(unsolvable & np.isfinite(least)).tolist():
             other = f"run {run_id[witness[index]][:12]} has a valid plan of cost {least[index]:g}"
-            found[index] = f"claims a proof that no plan exists, but {other}"
-        return found
+            faults[index] = f"claims a proof that no plan exists, but {other}"
+        return faults
 
 
 def _cheapest(place: Int, cost: Float) -> Int:

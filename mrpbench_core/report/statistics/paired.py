@@ -79,13 +79,13 @@ def compare_values(first: Float, second: Float) -> Difference | None:
     return _difference(estimate, first, second, steps, _signed_rank_test(steps))
 
 
-def adjust(found: Sequence[Difference]) -> list[float]:
+def adjust(differences: Sequence[Difference]) -> list[float]:
     """Return p-values adjusted for the number of tests.
 
     Tests that cannot be significant, because too few units differ, do not count and get 1.
     """
-    adjusted = np.ones(len(found))
-    able = sorted((entry.p, index) for index, entry in enumerate(found) if entry.can_be_significant)
+    adjusted = np.ones(len(differences))
+    able = sorted((entry.p, index) for index, entry in enumerate(differences) if entry.can_be_significant)
     least = 0.0
     for rank, (p, index) in enumerate(able):
         least = max(least, min(1.0, p * (len(able) - rank)))
@@ -124,8 +124,8 @@ def _flip_test(steps: Float) -> float:
         return float(2 * norm.sf(abs(moved.sum()) / np.sqrt((moved**2).sum())))
     rng = np.random.default_rng(SEED)
     batch = max(1, AT_ONCE // len(moved))
-    found = permutation_test((moved,), np.mean, permutation_type="samples", n_resamples=FLIPS, batch=batch, rng=rng)
-    return float(found.pvalue)
+    test = permutation_test((moved,), np.mean, permutation_type="samples", n_resamples=FLIPS, batch=batch, rng=rng)
+    return float(test.pvalue)
 
 
 def _signed_rank_test(steps: Float) -> float:

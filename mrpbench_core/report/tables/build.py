@@ -40,7 +40,7 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
     axes = axes_of(settings)
     rows: list[tuple[Cell, ...]] = []
     planned = ("plans found",) if np.isfinite(runs.values["planned"]).any() else ()
-    for setting, group, found in _groups(settings, numbers):
+    for setting, group, entry in _groups(settings, numbers):
         statuses = group.statuses(runs)
         failed = [
             f"{count} {status}" for status, count in statuses.items() if status not in {RunStatus.SUCCEEDED, *LEFT_OUT}
@@ -52,8 +52,8 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
                 len(group.members),
                 len(np.unique(setting.units[group.counted])),
                 f"{statuses[RunStatus.SUCCEEDED]}/{len(group.counted)}",
-                _rate(found.overall["succeeded"]) or "n/a",
-                *(_rate(found.overall["planned"]) for _ in planned),
+                _rate(entry.overall["succeeded"]) or "n/a",
+                *(_rate(entry.overall["planned"]) for _ in planned),
                 ", ".join(failed) or None,
                 ", ".join(left_out) or None,
             )
@@ -121,9 +121,9 @@ def means_table(
     rows = [
         (
             *_axes_cells(group, axes),
-            *(_shown(found.overall[column.name], column, runs, _size(setting, group)) for column in columns),
+            *(_shown(entry.overall[column.name], column, runs, _size(setting, group)) for column in columns),
         )
-        for setting, group, found in _groups(settings, numbers)
+        for setting, group, entry in _groups(settings, numbers)
     ]
     return Table(
         key="overall",
@@ -148,7 +148,9 @@ def common_table(
     settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]], columns: Sequence[Column], runs: Runs
 ) -> Table | None:
     """Build the same table over the units that all groups of a setting have in common; None if there is one group."""
-    compared = [(setting, found) for setting, found in zip(settings, numbers, strict=True) if len(setting.groups) > 1]
+    compared = [
+        (setting, results) for setting, results in zip(settings, numbers, strict=True) if len(setting.groups) > 1
+    ]
     if not compared:
         return None
     some = [setting for setting, _ in compared]
@@ -156,11 +158,11 @@ def common_table(
     rows = [
         (
             *_axes_cells(group, axes),
-            _n(found.common["succeeded"]),
-            _rate(found.common["succeeded"]),
-            *(_shown(found.common[column.name], column, runs, _n(found.common["succeeded"])) for column in columns),
+            _n(results.common["succeeded"]),
+            _rate(results.common["succeeded"]),
+            *(_shown(results.common[column.name], column, runs, _n(results.common["succeeded"])) for column in columns),
         )
-        for _, group, found in _groups(some, [found for _, found in compared])
+        for _, group, results in _groups(some, [results for _, results in compared])
     ]
     note = (
         f"Success over the {_unit(settings)} for which every group found a plan in every run; each other column over"
@@ -168,8 +170,8 @@ def common_table(
     )
     everything = (
         _n(value) == _n(entry.overall[name])
-        for _, found in compared
-        for entry in found
+        for _, results in compared
+        for entry in results
         for name, value in entry.common.items()
     )
     if all(everything):
@@ -193,7 +195,7 @@ def pairs_table(comparisons: Sequence[Comparison], brief: bool = False) -> Table
     """
     if not comparisons:
         return None
-    able = [entry for entry in comparisons if entry.found.can_be_significant]
+    able = [entry for entry in comparisons if entry.paired.can_be_significant]
     shown = able if brief else comparisons
     hidden = len(comparisons) - len(shown)
     others = f" (the page and the files have the other {hidden}, in which fewer than six pairs differ)" * bool(hidden)
@@ -201,25 +203,25 @@ def pairs_table(comparisons: Sequence[Comparison], brief: bool = False) -> Table
     named = any(entry.setting for entry in comparisons)
     rows = []
     for entry in sorted(shown, key=lambda entry: entry.column.name not in RATES):
-        found = entry.found
+        paired = entry.paired
         scale = 100 if entry.is_rate else 1
         relative = (
-            None if entry.is_rate or not found.first else f"{100 * found.difference.value / abs(found.first):+.1f} %"
+            None if entry.is_rate or not paired.first else f"{100 * paired.difference.value / abs(paired.first):+.1f} %"
         )
         rows.append(
             (
                 *([entry.setting] if named else []),
                 entry.column.name,
                 *([entry.first, entry.second] if sides else []),
-                found.difference.n,
+                paired.difference.n,
                 "/".join(map(str, entry.unpaired)),
-                _point(found.first * scale, entry.is_rate),
-                _point(found.second * scale, entry.is_rate),
-                Shown(found.difference, percent=entry.is_rate, usual=found.difference.n),
+                _point(paired.first * scale, entry.is_rate),
+                _point(paired.second * scale, entry.is_rate),
+                Shown(paired.difference, percent=entry.is_rate, usual=paired.difference.n),
                 relative,
-                f"{found.above}/{found.ties}/{found.below}",
-                f"{found.effect:+.2f}",
-                p_value(found.p),
+                f"{paired.above}/{paired.ties}/{paired.below}",
+                f"{paired.effect:+.2f}",
+                p_value(paired.p),
                 p_value(entry.p_adjusted),
                 f"{entry.verdict}, mean disagrees"
                 if entry.is_mixed and entry.p_adjusted < SIGNIFICANT
@@ -256,9 +258,9 @@ def _groups(
     settings: Sequence[Setting], numbers: Sequence[Sequence[Numbers]]
 ) -> list[tuple[Setting, RunGroup, Numbers]]:
     return [
-        (setting, group, found)
+        (setting, group, entry)
         for setting, entries in zip(settings, numbers, strict=True)
-        for group, found in zip(setting.groups, entries, strict=True)
+        for group, entry in zip(setting.groups, entries, strict=True)
     ]
 
 

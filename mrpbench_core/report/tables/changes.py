@@ -15,7 +15,7 @@ _WORDS = {"not shown": "no clear difference"}
 def changes_table(comparisons: Sequence[Comparison]) -> Table:
     """Build the table of comparisons of one family."""
     named = any(entry.setting for entry in comparisons)
-    identical = all(entry.found.ties == entry.found.difference.n for entry in comparisons)
+    identical = all(entry.paired.ties == entry.paired.difference.n for entry in comparisons)
     return Table(
         key="changes",
         title="A and B are identical" if identical else "B against A on the same scenarios",
@@ -32,20 +32,20 @@ def changes_table(comparisons: Sequence[Comparison]) -> Table:
 
 
 def _row(entry: Comparison, named: bool, tests: int) -> tuple[Cell, ...]:
-    found, scale = entry.found, 100 if entry.is_rate else 1
+    paired, scale = entry.paired, 100 if entry.is_rate else 1
     unit = " %" if entry.is_rate else ""
-    same = found.ties == found.difference.n
+    same = paired.ties == paired.difference.n
     needed = None
-    if not entry.is_rate and found.first:
-        needed = pairs_needed(entry.steps, SHARE * abs(found.first), SIGNIFICANT / tests)
+    if not entry.is_rate and paired.first:
+        needed = pairs_needed(entry.steps, SHARE * abs(paired.first), SIGNIFICANT / tests)
     verdict = "identical" if same else _WORDS.get(entry.verdict, entry.verdict)
     return (
         *([entry.setting] if named else []),
         heading(entry.column),
-        found.difference.n,
-        f"{found.first * scale:.4g}{unit}",
-        f"{found.second * scale:.4g}{unit}",
-        Shown(found.difference, percent=entry.is_rate, usual=found.difference.n),
+        paired.difference.n,
+        f"{paired.first * scale:.4g}{unit}",
+        f"{paired.second * scale:.4g}{unit}",
+        Shown(paired.difference, percent=entry.is_rate, usual=paired.difference.n),
         verdict,
         needed,
     )

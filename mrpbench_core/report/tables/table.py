@@ -23,13 +23,13 @@ class Shown:
     """Number of units that another cell of the row gives; a different number is written after the interval."""
 
     def __str__(self) -> str:
-        found, factor = self.estimate, 100.0 if self.percent else 1.0
-        value, low, high = (exact(number) * factor for number in (found.value, found.low, found.high))
-        places = 0 if self.percent else decimals(value, high - low if found.has_interval else math.nan)
+        estimate, factor = self.estimate, 100.0 if self.percent else 1.0
+        value, low, high = (exact(number) * factor for number in (estimate.value, estimate.low, estimate.high))
+        places = 0 if self.percent else decimals(value, high - low if estimate.has_interval else math.nan)
         text = fixed(value, places) + (" %" if self.percent else "")
-        if found.has_interval:
+        if estimate.has_interval:
             text += f" [{fixed(low, places)}, {fixed(high, places)}]"
-        return text if found.n == self.usual else f"{text} n={found.n}"
+        return text if estimate.n == self.usual else f"{text} n={estimate.n}"
 
 
 @attrs.frozen(kw_only=True)

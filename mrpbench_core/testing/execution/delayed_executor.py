@@ -118,13 +118,13 @@ class DelayedExecutor:
 
     def _holders(self, vertex: int, but: int) -> list[int]:
         """Robots that stand at a vertex, go to it, or have not cleared it."""
-        found = []
+        holders = []
         for robot, route in enumerate(self.routes):
             at = self.reached[robot]
             comes = self._progress[robot] > 0 and route[at + 1] == vertex
             if robot != but and not self.gone(robot) and (comes or vertex in route[self.cleared[robot] : at + 1]):
-                found.append(robot)
-        return found
+                holders.append(robot)
+        return holders
 
     def _set_out(self, robot: int, released: Int32) -> None:
         """Begin a move, and the moves of the others of a ring if the robot is part of one."""

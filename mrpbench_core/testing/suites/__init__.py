@@ -64,9 +64,9 @@ def suite_class(component: Component) -> type[ComponentConformance]:
         return SUITES.get(kind, ComponentConformance)
     module, _, name = named.partition(":")
     try:
-        found = getattr(importlib.import_module(module), name)
+        value = getattr(importlib.import_module(module), name)
     except (Exception, SystemExit) as error:
         raise InputError(f"the suite {named} of the kind {kind} cannot be imported: {one_line(error)}") from error
-    if not isinstance(found, type) or not issubclass(found, ComponentConformance):
+    if not isinstance(value, type) or not issubclass(value, ComponentConformance):
         raise InputError(f"the suite {named} of the kind {kind} does not derive from ComponentConformance")
-    return found
+    return value

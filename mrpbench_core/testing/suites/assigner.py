@@ -49,11 +49,11 @@ class AssignerConformance(ComponentConformance):
         assigner = self.reading_costs()
         for name, problem in forbidding():
             try:
-                found = assigned(assigner, problem)
+                assignment = assigned(assigner, problem)
             except AssignmentError:
                 require(not assigner.optimal, f"{name}: raises `AssignmentError`, but promises the best (`optimal`)")
                 continue
-            faults = check_assignment(problem, found)
+            faults = check_assignment(problem, assignment)
             require(not faults, f"{name}: {'; '.join(faults)}: an infinite cost forbids a pair")
 
     def test_is_optimal(self) -> None:
@@ -71,11 +71,11 @@ class AssignerConformance(ComponentConformance):
     def test_says_what_its_assignment_costs(self) -> None:
         assigner = self.reading_costs()
         for name, problem in problems():
-            found = assigned(assigner, problem)
-            value = self.paid(problem, found)
+            assignment = assigned(assigner, problem)
+            value = self.paid(problem, assignment)
             require(
-                abs(found.cost - value) <= 1e-6 * max(1.0, abs(value)),
-                f"{name}: `Assignment.cost` is {found.cost:g} for an assignment that costs {value:g}",
+                abs(assignment.cost - value) <= 1e-6 * max(1.0, abs(value)),
+                f"{name}: `Assignment.cost` is {assignment.cost:g} for an assignment that costs {value:g}",
             )
 
     def test_raises_an_assignment_error_when_nothing_is_feasible(self) -> None:
@@ -83,11 +83,11 @@ class AssignerConformance(ComponentConformance):
         for costs in ([[INF]], [[1.0, INF], [2.0, INF]], [[INF, INF, INF], [1.0, 2.0, 3.0]]):
             problem = make_problem(np.array(costs))
             try:
-                found = assigned(assigner, problem)
+                assignment = assigned(assigner, problem)
             except AssignmentError:
                 continue
             raise Fault(
-                f"assigns {found.task.tolist()} although costs {costs} allow no assignment: raise `AssignmentError`"
+                f"assigns {assignment.task.tolist()} although costs {costs} allow none: raise `AssignmentError`"
             )
 
     def test_does_not_change_the_problem(self) -> None:
@@ -103,15 +103,15 @@ class AssignerConformance(ComponentConformance):
     def test_queues_hold_each_task_once(self) -> None:
         assigner = self.make()
         for name, problem in queue_problems():
-            found = assigner.assign_queues(problem)
+            queues = assigner.assign_queues(problem)
             require(
-                len(found) == len(problem.free_in), f"{name}: {len(found)} queues for {len(problem.free_in)} robots"
+                len(queues) == len(problem.free_in), f"{name}: {len(queues)} queues for {len(problem.free_in)} robots"
             )
-            given = [task for queue in found for task in queue]
-            require(len(set(given)) == len(given), f"{name}: gives a task twice: {found}")
-            require(set(given) <= set(range(len(problem.tasks))), f"{name}: gives tasks that do not exist: {found}")
+            given = [task for queue in queues for task in queue]
+            require(len(set(given)) == len(given), f"{name}: gives a task twice: {queues}")
+            require(set(given) <= set(range(len(problem.tasks))), f"{name}: gives tasks that do not exist: {queues}")
             if assigner.reads_costs:
-                pairs = [(robot, task) for robot, queue in enumerate(found) for task in queue]
+                pairs = [(robot, task) for robot, queue in enumerate(queues) for task in queue]
                 unable = [pair for pair in pairs if not np.isfinite(problem.approach[pair])]
                 require(
                     not unable, f"{name}: robot and task {unable[:1]} have an infinite `approach`, which forbids them"
@@ -120,13 +120,13 @@ class AssignerConformance(ComponentConformance):
     def test_gives_a_task_to_a_free_robot(self) -> None:
         for name, problem in queue_problems():
             if np.isfinite(problem.approach).all() and (problem.free_in == 0).any() and problem.tasks:
-                found = self.make().assign_queues(problem)
-                require(any(found), f"{name}: no robot gets a task, although robots are free")
+                queues = self.make().assign_queues(problem)
+                require(any(queues), f"{name}: no robot gets a task, although robots are free")
 
-    def paid(self, problem: AssignmentProblem, found: Assignment) -> float:
+    def paid(self, problem: AssignmentProblem, assignment: Assignment) -> float:
         """The objective of an assignment."""
-        rows = np.flatnonzero(found.task >= 0)
-        return self.value(problem.costs[rows, found.task[rows]])
+        rows = np.flatnonzero(assignment.task >= 0)
+        return self.value(problem.costs[rows, assignment.task[rows]])
 
     def reading_costs(self) -> Assigner:
         """The assigner, if it reads costs."""
@@ -138,9 +138,9 @@ class AssignerConformance(ComponentConformance):
 
 def assigned(assigner: Assigner, problem: AssignmentProblem) -> Assignment:
     """The assigner's answer."""
-    found = assigner.assign(problem)
-    require(isinstance(found, Assignment), f"returns {type(found).__name__} instead of Assignment")
-    return found
+    assignment = assigner.assign(problem)
+    require(isinstance(assignment, Assignment), f"returns {type(assignment).__name__} instead of Assignment")
+    return assignment
 
 
 def make_problem(costs: Float) -> AssignmentProblem:

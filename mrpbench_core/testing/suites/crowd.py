@@ -55,8 +55,8 @@ class CrowdConformance(ComponentConformance):
         wanted = len(session.members)
         require(all(member.radius > 0 for member in session.members), "a member has no radius")
         for movers in self.walk(session):
-            found = len(movers.pose), len(movers.velocity), len(movers.level)
-            require(found == (wanted,) * 3, f"{found} poses, velocities and levels of {wanted} members")
+            sizes = len(movers.pose), len(movers.velocity), len(movers.level)
+            require(sizes == (wanted,) * 3, f"{sizes} poses, velocities and levels of {wanted} members")
             require(np.isfinite(movers.pose).all(), "a mover has a pose that is not finite")
             require(np.isfinite(movers.velocity).all(), "a mover has a velocity that is not finite")
             require(set(movers.level.tolist()) <= {-1, 0}, "a mover is on a level that the world does not have")
@@ -73,8 +73,8 @@ class CrowdConformance(ComponentConformance):
         alone, other = self.places(1), self.start(2)
         together = self.start(1)
         self.walk(other)
-        found = np.array([np.hstack([movers.pose, movers.velocity]) for movers in self.walk(together)])
-        require(np.array_equal(alone, found), "a second session changes the first: keep no global state")
+        beside = np.array([np.hstack([movers.pose, movers.velocity]) for movers in self.walk(together)])
+        require(np.array_equal(alone, beside), "a second session changes the first: keep no global state")
 
     def test_speeds_are_those_of_the_motion(self) -> None:
         walk = self.places(0)

@@ -123,9 +123,11 @@ class DispatcherConformance(ComponentConformance):
             for step in range(2 * EVERY):
                 executor.step(step, session.update(step * asked.roadmap.tick, executor.view()).released)
                 for robot in range(len(asked)):
-                    found = session.waits_for(robot)
+                    blockers = session.waits_for(robot)
                     others = set(range(len(asked))) - {robot}
-                    require(found is None or others.issuperset(found), f"{name}: robot {robot} waits for {found}")
+                    require(
+                        blockers is None or others.issuperset(blockers), f"{name}: robot {robot} waits for {blockers}"
+                    )
 
     def test_copies_go_on_as_their_sessions_do(self) -> None:
         for name, (asked, plan) in plans().items():
@@ -230,9 +232,9 @@ def delayed(asked: Problem, plan: Plan, seed: int) -> DelayedExecutor:
 
 def plans() -> dict[str, tuple[Problem, Plan]]:
     """Plans without conflicts, by name."""
-    found = {name: drawn(*entry) for name, entry in DRAWN.items()}
-    assert all(check_plan(asked, plan).valid for asked, plan in found.values())
-    return found
+    plans = {name: drawn(*entry) for name, entry in DRAWN.items()}
+    assert all(check_plan(asked, plan).valid for asked, plan in plans.values())
+    return plans
 
 
 def conflicting() -> dict[str, tuple[Problem, Plan]]:

@@ -28,21 +28,21 @@ class ExecutorConformance(ComponentConformance):
         except InputError as refusal:
             raise Skip(str(refusal)) from None
         with executor:
-            found = [future.result(timeout=60) for future in [executor.submit(abs, -number) for number in range(8)]]
-        require(found == list(range(8)), f"two workers returned {found}")
+            results = [future.result(timeout=60) for future in [executor.submit(abs, -number) for number in range(8)]]
+        require(results == list(range(8)), f"two workers returned {results}")
 
     def test_returns_the_results_of_calls(self) -> None:
         with self.make().open(1) as executor:
             futures = [executor.submit(divmod, number, 7) for number in range(20)]
-            found = [future.result(timeout=60) for future in futures]
-        require(found == [divmod(number, 7) for number in range(20)], f"20 calls returned {found}")
+            results = [future.result(timeout=60) for future in futures]
+        require(results == [divmod(number, 7) for number in range(20)], f"20 calls returned {results}")
 
     def test_equal_calls_are_all_made(self) -> None:
         with self.make().open(1) as executor:
             futures = [executor.submit(object) for _ in range(5)]
-            found = [future.result(timeout=60) for future in futures]
+            results = [future.result(timeout=60) for future in futures]
         require(
-            len({id(each) for each in found}) == 5,
+            len({id(each) for each in results}) == 5,
             "equal calls were made only once, so that repeated runs would be lost",
         )
 

@@ -90,9 +90,9 @@ class FormatConformance(ComponentConformance):
 
     def test_reads_a_recording(self) -> None:
         with folder() as here:
-            found = self.readable().read(self.recording(here))
-        require(len(found.tracks) > 1, f"found {len(found.tracks)} robots: the checks need a recording of two")
-        for track in found.tracks:
+            observed = self.readable().read(self.recording(here))
+        require(len(observed.tracks) > 1, f"found {len(observed.tracks)} robots: the checks need a recording of two")
+        for track in observed.tracks:
             require(
                 track.source in SOURCES, f"robot {track.robot} has the source {track.source!r}, not one of {SOURCES}"
             )
@@ -102,7 +102,7 @@ class FormatConformance(ComponentConformance):
             require(len(track.height) == len(track.time), f"robot {track.robot} has {len(track.height)} heights")
             require((np.diff(track.time) > 0).all(), f"the times of robot {track.robot} do not increase")
             require(np.isfinite(track.pose[:, :2]).all(), f"robot {track.robot} has a position that is not finite")
-        first = min(float(track.time[0]) for track in found.tracks)
+        first = min(float(track.time[0]) for track in observed.tracks)
         require(first == 0, f"the first pose is at {first:g} s: count times from the first pose of the recording")
 
     def test_reads_only_the_robots_that_are_asked_for(self) -> None:
@@ -111,8 +111,8 @@ class FormatConformance(ComponentConformance):
             names = [track.robot for track in self.readable().read(path).tracks]
             first, last = names[0], names[-1]
             for asked, wanted in ((first, first), (f"{last[:-1]}[{last[-1]}]", last)):
-                found = [track.robot for track in self.readable().read(path, (asked,)).tracks]
-                require(found == [wanted], f"asked for {asked!r}, it reads {found}")
+                robots = [track.robot for track in self.readable().read(path, (asked,)).tracks]
+                require(robots == [wanted], f"asked for {asked!r}, it reads {robots}")
 
     def test_says_that_it_does_not_find_a_robot(self) -> None:
         with folder() as here:

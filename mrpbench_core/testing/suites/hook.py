@@ -29,9 +29,9 @@ class HookConformance:
 
     def test_says_in_one_line_what_keeps_it_from_working(self) -> None:
         check = getattr(self.make(), "mrpbench_check", None)
-        found = None if check is None else check()
-        line = found is None or (isinstance(found, str) and found.strip() and "\n" not in found)
-        require(line, f"mrpbench_check returns {found!r}: return one line, or None if nothing keeps it from working")
+        reason = None if check is None else check()
+        line = reason is None or (isinstance(reason, str) and reason.strip() and "\n" not in reason)
+        require(line, f"mrpbench_check returns {reason!r}: return one line, or None if nothing keeps it from working")
 
     def test_observes_a_study_without_raising(self) -> None:
         self.observe(runs=1)

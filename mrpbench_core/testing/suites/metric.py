@@ -80,8 +80,8 @@ class MetricConformance(ComponentConformance):
     def test_does_not_depend_on_the_order_of_robots(self) -> None:
         metric = self.make()
         one, other = measured(metric, finished()), measured(metric, permuted((2, 0, 1)))
-        found = differences(one, other)
-        require(not found, f"the values depend on the order of robots: {found}")
+        differing = differences(one, other)
+        require(not differing, f"the values depend on the order of robots: {differing}")
 
 
 def measured(metric: Metric, run: FinishedRun) -> Mapping[str, Value]:

@@ -127,7 +127,7 @@ class SimulatorConformance(ComponentConformance):
             require(len(seen) == len(set(seen)), "a robot scans twice at one instant")
             assert ROBOT.lidar is not None
             for robot in range(2):
-                count, due = sum(found == robot for _, found in seen), 3.0 * ROBOT.lidar.rate
+                count, due = sum(scanned == robot for _, scanned in seen), 3.0 * ROBOT.lidar.rate
                 require(
                     0.7 * due <= count <= 1.3 * due + 1, f"robot {robot} took {count} scans in 3 s, {due:g} are due"
                 )
@@ -146,13 +146,15 @@ class SimulatorConformance(ComponentConformance):
             right = ranges[3 * beams // 4]
             behind = ranges[beams // 2]
             ahead, left = ranges[0], ranges[beams // 4]
-            for name, found, wanted, close in (
+            for name, measured, wanted, close in (
                 ("the wall to the right", right, 1.0 + y - HALF_WALL, 0.03),
                 ("the wall behind", behind, 1.0 + x - HALF_WALL, 0.03),
                 ("the mover ahead", ahead, 1.0 - x - 0.2, 0.03),
                 ("the robot to the left", left, 1.2 - y - ROBOT.radius, ROBOT.radius),
             ):
-                require(abs(found - wanted) < close, f"the beam to {name} reads {found:.3f} m instead of {wanted:.3f}")
+                require(
+                    abs(measured - wanted) < close, f"the beam to {name} reads {measured:.3f} m instead of {wanted:.3f}"
+                )
 
     def test_movers_stop_robots_and_have_indices_of_their_own(self) -> None:
         with self.open(movers=[0.2, 0.2]) as simulation:

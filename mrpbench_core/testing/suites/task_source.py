@@ -40,20 +40,20 @@ class TaskSourceConformance(ComponentConformance):
 
     def tasks(self, seed: int, step: float, share: float = 1.0) -> list[Task]:
         """The tasks of an hour, asked for every `step` seconds; of those released, `share` are finished at once."""
-        stream, found, now = self.stream(seed), list[Task](), 0.0
+        stream, tasks, now = self.stream(seed), list[Task](), 0.0
         while now <= HOUR:
-            given = list(stream.released(now, int(share * len(found))))
+            given = list(stream.released(now, int(share * len(tasks))))
             late = [task.index for task in given if task.release > now]
             require(not late, f"at {now} s, tasks {late} are given before their release")
-            found += given
+            tasks += given
             now += step
-        return found
+        return tasks
 
     def test_indices_count_the_tasks(self) -> None:
-        found = self.tasks(0, 10.0)
-        require(bool(found), "gives no task within an hour")
-        require([task.index for task in found] == [*range(len(found))], "the indices of tasks are not 0, 1, 2, …")
-        releases = [task.release for task in found]
+        tasks = self.tasks(0, 10.0)
+        require(bool(tasks), "gives no task within an hour")
+        require([task.index for task in tasks] == [*range(len(tasks))], "the indices of tasks are not 0, 1, 2, …")
+        releases = [task.release for task in tasks]
         require(releases == sorted(releases) and releases[0] >= 0, "tasks are not in the order of their release")
 
     def test_tasks_are_sound(self) -> None:
@@ -82,9 +82,9 @@ class TaskSourceConformance(ComponentConformance):
         stream, now, given = self.stream(0), 0.0, 0
         while now <= HOUR:
             ended = stream.ended
-            found = stream.released(now, given)
-            require(not (ended and found), f"task {given} comes although the stream has ended")
-            given += len(found)
+            tasks = stream.released(now, given)
+            require(not (ended and tasks), f"task {given} comes although the stream has ended")
+            given += len(tasks)
             now += 60.0
 
 

@@ -77,27 +77,27 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
         InputError: the recording cannot be read or does not fit the scenario; says what there is.
     """
     observed = _in_order(analysis.format.read(analysis.bag, analysis.robots), analysis.robots)
-    found = _observe(analysis, observed)
-    identity = _identity(analysis, found)
-    first = attrs.evolve(found.context, run_id=identity)
+    observed_run = _observe(analysis, observed)
+    identity = _identity(analysis, observed_run)
+    first = attrs.evolve(observed_run.context, run_id=identity)
     if first.result.plan is not None:
         first = attrs.evolve(first, result=judge_plan(Promises.none(), first.problem, first.result)[0])
-    known = {name: rows for name, rows in found.channels.items() if not (found.gaps and name == "truth")}
+    known = {name: rows for name, rows in observed_run.channels.items() if not (observed_run.gaps and name == "truth")}
     channels = {name: _loader(rows) for name, rows in known.items()}
     context = with_latest_routes(first, channels)
     run = FinishedRun(
         context=context,
         executed=True,
         channels=channels,
-        alike=found.alike,
+        alike=observed_run.alike,
         first_routes=first.routes,
-        ended=not found.open_ends,
+        ended=not observed_run.open_ends,
     )
     values, reasons = measure(analysis.metrics, run)
-    for lacking, why in (("no truth", found.gaps), ("no end", found.open_ends)):
+    for lacking, why in (("no truth", observed_run.gaps), ("no end", observed_run.open_ends)):
         if why:
             reasons |= {name: "; ".join(why) for name, reason in reasons.items() if reason.startswith(lacking)}
-    status, message = _status(found, run)
+    status, message = _status(observed_run, run)
     record = StoredRecord(
         run=RunRecord(
             run_id=identity,
@@ -114,12 +114,12 @@ def analyze(analysis: Analysis) -> dict[str, Any]:
         provenance={**_code(analysis), "machine": machine(), "live": False},
         analysis={
             "bag": followed(analysis.bag).name,
-            "sources": {track.robot: f"{track.source}: {track.topic}" for track in found.tracks},
+            "sources": {track.robot: f"{track.source}: {track.topic}" for track in observed_run.tracks},
             "planned": run.planned,
-            "notes": [*found.notes, *found.gaps, *_unknown_end(found)],
+            "notes": [*observed_run.notes, *observed_run.gaps, *_unknown_end(observed_run)],
         },
     )
-    return _keep(analysis, attrs.evolve(found, context=first), record).document()
+    return _keep(analysis, attrs.evolve(observed_run, context=first), record).document()
 
 
 def _loader(rows: Any) -> Any:
@@ -163,23 +163,23 @@ def _observe(analysis: Analysis, observed: Observed) -> ObservedRun:
     return observe(observed, world, fleet, scenario, analysis.sampling, ordered=ordered)
 
 
-def _unknown_end(found: ObservedRun) -> list[str]:
+def _unknown_end(observed: ObservedRun) -> list[str]:
     """The note about an end that is not known."""
-    return [f"how the run ended is unknown: {'; '.join(found.open_ends)}"] if found.open_ends else []
+    return [f"how the run ended is unknown: {'; '.join(observed.open_ends)}"] if observed.open_ends else []
 
 
-def _status(found: ObservedRun, run: FinishedRun) -> tuple[RunStatus, str | None]:
+def _status(observed: ObservedRun, run: FinishedRun) -> tuple[RunStatus, str | None]:
     """The status of the run, as far as the recording shows it, and the reason if it did not succeed."""
     arrived = np.isfinite(arrival_times(run))
     if arrived.all():
         return RunStatus.SUCCEEDED, None
-    mode = found.channels.get("mode")
+    mode = observed.channels.get("mode")
     if mode is not None and (mode[-1] == Mode.ABORTED).any():
         return RunStatus.EXECUTION_ABORTED, "a robot gave up before all had arrived"
-    if found.open_ends:
-        return RunStatus.UNKNOWN, "; ".join(found.open_ends)
+    if observed.open_ends:
+        return RunStatus.UNKNOWN, "; ".join(observed.open_ends)
     missed = f"{np.count_nonzero(~arrived)} of {len(arrived)} robots are not seen to arrive"
-    return RunStatus.GOALS_MISSED, "; ".join((missed, *found.gaps))
+    return RunStatus.GOALS_MISSED, "; ".join((missed, *observed.gaps))
 
 
 def _config(analysis: Analysis, fleet: Fleet) -> dict[str, Any]:
@@ -201,7 +201,7 @@ def _plain(component: Component) -> dict[str, Any]:
     return canonical_component(component, Path.cwd())
 
 
-def _identity(analysis: Analysis, found: ObservedRun) -> str:
+def _identity(analysis: Analysis, observed: ObservedRun) -> str:
     """Hash of the bytes of the recording and of the options of the analysis, without metrics and paths of files."""
     digest = hashlib.sha256()
     files = [analysis.bag] if analysis.bag.is_file() else sorted(analysis.bag.iterdir())
@@ -209,8 +209,10 @@ def _identity(analysis: Analysis, found: ObservedRun) -> str:
         with file.open("rb") as stream:
             while block := stream.read(BLOCK):
                 digest.update(block)
-    config = {key: value for key, value in _config(analysis, found.context.fleet).items() if key not in UNIDENTIFYING}
-    config["robots"], config["scenario"] = analysis.robots, found.context.scenario.id
+    config = {
+        key: value for key, value in _config(analysis, observed.context.fleet).items() if key not in UNIDENTIFYING
+    }
+    config["robots"], config["scenario"] = analysis.robots, observed.context.scenario.id
     digest.update(line(config).encode())
     return digest.hexdigest()[:LENGTH]
 
@@ -220,7 +222,7 @@ def _code(analysis: Analysis) -> dict[str, Any]:
     return code | {"versions": code["versions"] | {DISTRIBUTION: version_of(DISTRIBUTION)}}
 
 
-def _keep(analysis: Analysis, found: ObservedRun, record: StoredRecord) -> StoredRecord:
+def _keep(analysis: Analysis, observed: ObservedRun, record: StoredRecord) -> StoredRecord:
     """Store recording and record; returns the record with the number of this attempt."""
     folder = ResultsFolder(analysis.out)
     folder.create()
@@ -233,9 +235,9 @@ def _keep(analysis: Analysis, found: ObservedRun, record: StoredRecord) -> Store
         invocation = new_invocation()
         folder.forget(run_id, attempt)
         paths = folder.run(run_id, attempt)
-        writer = RecordingWriter(paths.recording, found.context)
+        writer = RecordingWriter(paths.recording, observed.context)
         try:
-            writer.write(found.channels)
+            writer.write(observed.channels)
         except BaseException:
             writer.discard()
             raise

@@ -99,11 +99,11 @@ def calibrate(drives: Sequence[Drive]) -> Calibration:
 
 def _least_squares(terms: Float, wanted: Float, least: Float) -> Float:
     """The x >= `least` for which `terms` @ x is nearest to `wanted`: some values are at their bounds, others free."""
-    found, error = least, float(np.square(wanted - terms @ least).sum())
+    solution, error = least, float(np.square(wanted - terms @ least).sum())
     for free in product((False, True), repeat=len(least)):
         x, chosen = least.copy(), np.array(free)
         x[chosen] = np.linalg.lstsq(terms[:, chosen], wanted - terms[:, ~chosen] @ least[~chosen], rcond=None)[0]
         missed = float(np.square(wanted - terms @ x).sum())
         if (x >= least).all() and missed < error:
-            found, error = x, missed
-    return found
+            solution, error = x, missed
+    return solution

@@ -25,29 +25,29 @@ def signal_channels(observed: Observed, time: Float, max_gap: float, notes: list
     is not there goes to `notes`.
     """
     names = [track.robot for track in observed.tracks]
-    found: dict[str, NDArray[Any]] = {}
+    channels: dict[str, NDArray[Any]] = {}
     estimates = {track.robot: track for track in observed.estimates}
     if (poses := _poses("estimate", names, estimates, time, max_gap, notes)) is not None:
-        found["estimate"] = poses
+        channels["estimate"] = poses
     driven = _of(observed, "odometry")
     tracks = {name: _track(signal) for name, signal in driven.items()}
     if (poses := _poses("odometry", names, tracks, time, max_gap, notes)) is not None:
         twist = np.stack([_between(driven[name], time)[:, 3:] for name in names], axis=1)
-        found["odometry"] = np.concatenate([poses, twist], axis=-1)
+        channels["odometry"] = np.concatenate([poses, twist], axis=-1)
     told = _of(observed, "command")
     if _is_known_for_all("command", names, told, notes):
-        found["command"] = np.stack([_held(told[name], time) for name in names], axis=1)
-    found |= _scans([_of(observed, "scan_ranges").get(name) for name in names], time)
+        channels["command"] = np.stack([_held(told[name], time) for name in names], axis=1)
+    channels |= _scans([_of(observed, "scan_ranges").get(name) for name in names], time)
     same = {SAME[track.source] for track in observed.tracks if track.source in SAME}
-    return found, tuple(frozenset({"truth", channel}) for channel in sorted(same) if channel in found)
+    return channels, tuple(frozenset({"truth", channel}) for channel in sorted(same) if channel in channels)
 
 
 def _of(observed: Observed, channel: str) -> dict[str, Signal]:
     return {signal.robot: signal for signal in observed.signals if signal.channel == channel}
 
 
-def _is_known_for_all(channel: str, names: Sequence[str], found: Any, notes: list[str]) -> bool:
-    lacking = [name for name in names if name not in found]
+def _is_known_for_all(channel: str, names: Sequence[str], known: Any, notes: list[str]) -> bool:
+    lacking = [name for name in names if name not in known]
     if lacking and len(lacking) < len(names):
         notes.append(f"{', '.join(lacking)}: no {channel}, so the channel is not given")
     return not lacking
@@ -59,12 +59,12 @@ def _poses(
     """Poses f8[T,n,3], or None."""
     if not _is_known_for_all(channel, names, tracks, notes):
         return None
-    found = [resample(tracks[name], time, max_gap) for name in names]
-    gaps = [gap for resampled in found for gap in resampled.gaps]
+    resampled_tracks = [resample(tracks[name], time, max_gap) for name in names]
+    gaps = [gap for resampled in resampled_tracks for gap in resampled.gaps]
     if gaps:
         notes.append(f"{channel} is not given: {gaps[0]}")
         return None
-    return np.stack([resampled.pose for resampled in found], axis=1)
+    return np.stack([resampled.pose for resampled in resampled_tracks], axis=1)
 
 
 def _track(signal: Signal) -> Track:

@@ -76,8 +76,8 @@ def observe_own(observed: Observed, context: RunContext) -> ObservedRun:
     if "truth" in observed.channels:
         return _own(observed, context, observed.channels)
     time = observed.channels["time"]
-    found = [resample(track, time, np.inf) for track in observed.tracks]
-    truth = np.stack([resampled.pose for resampled in found], axis=1)
+    resampled_tracks = [resample(track, time, np.inf) for track in observed.tracks]
+    truth = np.stack([resampled.pose for resampled in resampled_tracks], axis=1)
     return _own(observed, context, {**observed.channels, "truth": truth})
 
 

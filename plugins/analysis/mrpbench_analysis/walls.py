@@ -32,12 +32,13 @@ def poses_in_walls(names: Sequence[str], time: Float, truth: Float, level: Int16
         inside[here] = _solid(storey, truth[here][:, :2])
     lasts = np.diff(time, append=time[-1])
     for robot, name in enumerate(names):
-        found = np.flatnonzero(inside[:, robot])
-        if len(found):
-            x, y = truth[found[0], robot, :2]
-            where = f" on {world.levels[level[found[0], robot]].name}" if len(world.levels) > 1 else ""
+        samples = np.flatnonzero(inside[:, robot])
+        if len(samples):
+            x, y = truth[samples[0], robot, :2]
+            where = f" on {world.levels[level[samples[0], robot]].name}" if len(world.levels) > 1 else ""
             yield (
-                f"{name} is inside walls or obstacles for {lasts[found].sum():.1f} s, first at {time[found[0]]:.1f} s"
+                f"{name} is inside walls or obstacles for {lasts[samples].sum():.1f} s, "
+                f"first at {time[samples[0]]:.1f} s"
                 f" at ({x:.2f}, {y:.2f}){where}: the world, the frame or the localization may be wrong"
             )
 

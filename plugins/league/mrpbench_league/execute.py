@@ -134,10 +134,10 @@ def _task(problem: LorrProblem, task: int, line: int, time: int) -> tuple[int, i
 def _others(problem: LorrProblem, running: discrete.Execution, duration: int) -> dict[str, Any]:
     errors = [list(error) for error in running.errors]
     times = [round(seconds, 6) for seconds in running.call_seconds.tolist()]
-    found: dict[str, Any] = {"errors": errors, "plannerTimes": times}
+    fields: dict[str, Any] = {"errors": errors, "plannerTimes": times}
     if problem.season == 2023:
-        return found | {"AllValid": "No" if errors else "Yes", "sumOfCost": duration * len(problem.start)}
+        return fields | {"AllValid": "No" if errors else "Yes", "sumOfCost": duration * len(problem.start)}
     wrong = [list(error) for error in running.schedule_errors]
-    found |= {"numPlannerErrors": len(errors), "numScheduleErrors": len(wrong), "scheduleErrors": wrong}
-    found["numEntryTimeouts"] = running.late_calls
-    return found | ({"outputSegmentSize": SEGMENT} if problem.season == 2026 else {})
+    fields |= {"numPlannerErrors": len(errors), "numScheduleErrors": len(wrong), "scheduleErrors": wrong}
+    fields["numEntryTimeouts"] = running.late_calls
+    return fields | ({"outputSegmentSize": SEGMENT} if problem.season == 2026 else {})

@@ -182,11 +182,11 @@ def cells_of(raster: Occupancy, poses: np.ndarray, what: str) -> Int:
         InputError: a pose is not in a free cell.
     """
     rows, columns = raster.shape
-    found = raster.cells(poses[:, :2])
-    inside = ((found >= 0) & (found < (rows, columns))).all(axis=1)
-    if not inside.all() or raster.blocked[found[:, 0], found[:, 1]].any():
+    cell = raster.cells(poses[:, :2])
+    inside = ((cell >= 0) & (cell < (rows, columns))).all(axis=1)
+    if not inside.all() or raster.blocked[cell[:, 0], cell[:, 1]].any():
         raise InputError(f"{what} is not in a free cell of the raster")
-    cells: Int = (rows - 1 - found[:, 0]) * columns + found[:, 1]
+    cells: Int = (rows - 1 - cell[:, 0]) * columns + cell[:, 1]
     return cells
 
 

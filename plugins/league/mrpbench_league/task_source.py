@@ -55,9 +55,9 @@ class Pool(TaskStream):
 
     def released(self, now: float, finished: int) -> Sequence[Task]:
         """Return a task for each one that is finished; at first, the whole pool."""
-        found = [self._task(index, now) for index in range(self._count, finished + self._size)]
-        self._count += len(found)
-        return found
+        tasks = [self._task(index, now) for index in range(self._count, finished + self._size)]
+        self._count += len(tasks)
+        return tasks
 
     @property
     def places(self) -> tuple[Float, Int16]:

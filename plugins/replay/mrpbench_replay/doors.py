@@ -40,13 +40,13 @@ def _door(door: OperatedDoor, lifts: list[str]) -> dict[str, Any]:
 
 def _leaves(door: Door) -> list[list[float]]:
     """Return position and motion of each leaf: hinged leaves turn around their first point, the others slide."""
-    found = []
+    leaves = []
     hinged = "hinged" in door.motion
     for index, (shut, open_) in enumerate(zip(leaf_segments(door, 0.0), leaf_segments(door, 1.0), strict=True)):
         way = [0.0, 0.0] if hinged else (open_ - shut)[:2].tolist()
         turn = swing_angles(door)[index] if hinged else 0.0
-        found.append([round(float(value), 4) for value in (*shut.tolist(), *way, turn)])
-    return found
+        leaves.append([round(float(value), 4) for value in (*shut.tolist(), *way, turn)])
+    return leaves
 
 
 def _cabin(lift: Lift, heights: dict[int, float]) -> dict[str, Any]:

@@ -18,27 +18,27 @@ PAUSE = 0.5
 
 def read_events(recording: Recording, context: RunContext, plans: Sequence[RecordedPlan]) -> list[list[Any]]:
     """Return events, motions of doors and lifts, switches and arrivals as [seconds, kind, robot, detail], by time."""
-    found: list[list[Any]] = []
+    events: list[list[Any]] = []
     names = ("event_time", "event_kind", "event_robot", "event_detail")
     if set(names) <= recording.channels.keys():
         times, kinds, robots, details = (recording.channel(name).tolist() for name in names)
         rows = zip(times, kinds, robots, details, strict=True)
-        found += [[round(time, 3), *rest] for time, *rest in rows if rest[0] != "contact"]  # see `read_contacts`
-    found += read_facility_events(recording, context.world)
+        events += [[round(time, 3), *rest] for time, *rest in rows if rest[0] != "contact"]  # see `read_contacts`
+    events += read_facility_events(recording, context.world)
     if "reached" in recording.channels:
-        found += _arrivals(recording.channel("time"), recording.channel("reached"), context)
-        found += _switches(recording, context, plans)
-    return sorted(found, key=lambda event: (event[0], event[2]))
+        events += _arrivals(recording.channel("time"), recording.channel("reached"), context)
+        events += _switches(recording, context, plans)
+    return sorted(events, key=lambda event: (event[0], event[2]))
 
 
 def _switches(recording: Recording, context: RunContext, plans: Sequence[RecordedPlan]) -> list[list[Any]]:
     time, reached, names = recording.channel("time"), recording.channel("reached"), context.fleet.names
     if any(len(plan.routes) != reached.shape[1] for plan in plans):
         return []
-    found = switches(context.problem, plans, time, reached)
+    changes = switches(context.problem, plans, time, reached)
     return [
         [round(when, 3), "switch", robot, f"passed {names[other]}, which is first in the plan"]
-        for when, robot, other in found
+        for when, robot, other in changes
     ]
 
 

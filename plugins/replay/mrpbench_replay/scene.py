@@ -45,7 +45,7 @@ def _places(roadmap: Roadmap, resource: Resource) -> list[list[float]]:
 def _level(level: Level, number: int, packing: Packing) -> dict[str, Any]:
     boxes = wall_boxes(level.walls, level.wall_thickness).reshape(-1, 4, 4)[:, :, :2]
     packing.add_metres(f"walls_{number}", boxes.reshape(-1, 8))
-    found: dict[str, Any] = {
+    fields: dict[str, Any] = {
         "name": level.name,
         "floors": [_points(area.polygon) for area in level.floors],
         "holes": [_points(area.polygon) for area in level.holes],
@@ -53,8 +53,8 @@ def _level(level: Level, number: int, packing: Packing) -> dict[str, Any]:
     }
     if level.occupancy is not None:
         packing.add(f"blocked_{number}", level.occupancy.blocked)
-        found["raster"] = {"cell": level.occupancy.cell_size, "origin": list(level.occupancy.origin)}
-    return found
+        fields["raster"] = {"cell": level.occupancy.cell_size, "origin": list(level.occupancy.origin)}
+    return fields
 
 
 def pack_robots(context: RunContext, packing: Packing, plans: Sequence[RecordedPlan]) -> dict[str, Any]:

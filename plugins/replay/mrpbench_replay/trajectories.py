@@ -62,8 +62,8 @@ def _chosen(recording: Recording, rows: Int) -> Float:
     wanted, done = rows[place], 0
     for part in _parts(recording):
         low, high = np.searchsorted(wanted, [done, done + len(part)])
-        found = part[wanted[low:high] - done]
-        poses[place[low:high]] = found[:, np.minimum(np.arange(width), part.shape[1] - 1)]
+        trajectories = part[wanted[low:high] - done]
+        poses[place[low:high]] = trajectories[:, np.minimum(np.arange(width), part.shape[1] - 1)]
         done += len(part)
     return poses
 
@@ -78,11 +78,11 @@ def _pack_critics(recording: Recording, packing: Packing) -> list[str]:
         return []
     robots = recording.channel("critic_robot").astype(np.int64)
     order = np.lexsort((times, robots))
-    found = recording.channel("critic_name")
-    _, first, index = np.unique(found, return_index=True, return_inverse=True)
+    names = recording.channel("critic_name")
+    _, first, index = np.unique(names, return_index=True, return_inverse=True)
     place = np.argsort(first)  # names as they come, which is the order of the critics
     packing.add_metres("critic_time", times[order])
     packing.add("critic_robot", robots[order])
     packing.add("critic_name", np.argsort(place)[index][order])
     packing.add_metres("critic_score", recording.channel("critic_score")[order], 1e-4)
-    return [str(name) for name in found[first[place]]]
+    return [str(name) for name in names[first[place]]]

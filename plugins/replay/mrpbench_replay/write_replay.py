@@ -78,5 +78,5 @@ def _planner(block: Any) -> str:
 def defaults_of(planner: str) -> dict[str, Any]:
     """In a worker process: the default of each option of an installed planner."""
     cls: Any = Registry(Planner).get(planner)  # type: ignore[type-abstract]
-    found = {field.alias: json_scalar(field.default) for field in attrs.fields(cls)}
-    return {key: value for key, value in found.items() if isinstance(value, str | int | float)}
+    defaults = {field.alias: json_scalar(field.default) for field in attrs.fields(cls)}
+    return {key: value for key, value in defaults.items() if isinstance(value, str | int | float)}

@@ -49,8 +49,8 @@ def test_differences_are_means_over_what_both_levels_have(effects, record, share
         within = [second - first for first, second in cells if first is not None and second is not None]
         differences += [np.mean(within)] if within else []
     comparison = compared(report, found["planner"])["a", "b"]
-    assert comparison.found.difference.n == len(differences)
-    assert comparison.found.difference.value == pytest.approx(np.mean(differences), abs=1e-9)
+    assert comparison.paired.difference.n == len(differences)
+    assert comparison.paired.difference.value == pytest.approx(np.mean(differences), abs=1e-9)
 
 
 def test_a_lost_hard_combination_does_not_favour_the_one_that_lost_it(effects, record):
@@ -62,9 +62,9 @@ def test_a_lost_hard_combination_does_not_favour_the_one_that_lost_it(effects, r
     ]
     report, found = effects(records)
     comparison = compared(report, found["planner"])["a", "b"]
-    assert comparison.found.difference.value == pytest.approx(1.0)
+    assert comparison.paired.difference.value == pytest.approx(1.0)
     assert comparison.verdict == "worse"
-    assert comparison.found.difference.n == 12  # scenarios, not scenarios times controllers
+    assert comparison.paired.difference.n == 12  # scenarios, not scenarios times controllers
 
 
 def test_combinations_that_only_some_levels_have_are_left_out(effects, record):

@@ -25,7 +25,7 @@ def comparison(value, low, high, p=0.001, column=TIME, effect=None, first=5.0):
         unit="runs",
         column=column,
         is_rate=False,
-        found=found,
+        paired=found,
         unpaired=(0, 0),
         p_adjusted=p,
     )

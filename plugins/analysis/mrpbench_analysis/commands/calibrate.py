@@ -42,13 +42,15 @@ def run(arguments: argparse.Namespace) -> int:
         arrival = float(arrival_times(run)[0]) if context.routes else math.nan
         drives[name_axes(axes) or "all"].append(drive_of(context, arrival))
         recording.close()
-    found = {name: calibrate(own) for name, own in drives.items()}
+    calibrations = {name: calibrate(own) for name, own in drives.items()}
     if arguments.json:
-        print_json([{"configuration": name, "drives": len(drives[name]), **it._asdict()} for name, it in found.items()])
+        print_json(
+            [{"configuration": name, "drives": len(drives[name]), **it._asdict()} for name, it in calibrations.items()]
+        )
         return 0
     rows = [
         [name, len(drives[name]), *it.options.values(), f"{it.before:+.1%}", f"{it.after:+.1%}"]
-        for name, it in found.items()
+        for name, it in calibrations.items()
     ]
     print_table(["configuration", "drives", *PENALTIES, "gap before", "gap after"], rows)
     print("gap: executed by planned time, minus one")

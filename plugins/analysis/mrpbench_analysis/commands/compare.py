@@ -32,20 +32,20 @@ def run(arguments: argparse.Namespace) -> int:
     from mrpbench_core.report.tables.build import pairs_table
 
     first, second = load(arguments.first), load(arguments.second)
-    found = compare_folders(first, second, split_names(arguments.metrics), split_names(arguments.by))
-    verdicts = [entry.verdict for entry in found.comparisons]
+    comparison = compare_folders(first, second, split_names(arguments.metrics), split_names(arguments.by))
+    verdicts = [entry.verdict for entry in comparison.comparisons]
     counts = {name: verdicts.count(name) for name in ("better", "worse", "different", "not shown")}
     if arguments.csv:
-        write_rows(Path(arguments.csv), pairs_of(found.comparisons), list(PAIR_COLUMNS))
+        write_rows(Path(arguments.csv), pairs_of(comparison.comparisons), list(PAIR_COLUMNS))
     if arguments.json:
         print_json(
             {
-                "comparisons": pairs_of(found.comparisons),
+                "comparisons": pairs_of(comparison.comparisons),
                 "verdicts": counts,
-                "differing": {name: list(values) for name, values in found.differing.items()},
-                "only_in_first": list(found.unmatched[0]),
-                "only_in_second": list(found.unmatched[1]),
-                "no_common_scenario": list(found.no_common_scenario),
+                "differing": {name: list(values) for name, values in comparison.differing.items()},
+                "only_in_first": list(comparison.unmatched[0]),
+                "only_in_second": list(comparison.unmatched[1]),
+                "no_common_scenario": list(comparison.no_common_scenario),
                 "rules": dict(RULES),
             }
         )
@@ -54,17 +54,17 @@ def run(arguments: argparse.Namespace) -> int:
         from mrpbench_core.report.tables.changes import changes_table
         from mrpbench_core.report.tables.write import markdown
 
-        print(markdown([changes_table(found.comparisons)]), end="")
+        print(markdown([changes_table(comparison.comparisons)]), end="")
         return int(counts["worse"] > 0)
     print(f"A: {arguments.first}, {counted(len(first), 'run')}\nB: {arguments.second}, {counted(len(second), 'run')}")
-    for name, (one, other) in found.differing.items():
+    for name, (one, other) in comparison.differing.items():
         print(f"   {name}: {one} → {other}")
-    for letter, names in zip("AB", found.unmatched, strict=True):
+    for letter, names in zip("AB", comparison.unmatched, strict=True):
         if names:
             print(f"only in {letter}, not compared: {'; '.join(names)}")
-    if found.no_common_scenario:
-        print(f"without a common scenario, not compared: {'; '.join(found.no_common_scenario)}")
-    table = pairs_table(found.comparisons)
+    if comparison.no_common_scenario:
+        print(f"without a common scenario, not compared: {'; '.join(comparison.no_common_scenario)}")
+    table = pairs_table(comparison.comparisons)
     assert table is not None
     print()
     print_wide(table)

@@ -28,8 +28,8 @@ from mrpbench_core.model.worlds.world import World
 
 def _waypoints() -> Any:
     """The core's own navigator, found like any plugin."""
-    (found,) = entry_points(group=Navigator.group, name="waypoints")
-    return found.load()()
+    (entry,) = entry_points(group=Navigator.group, name="waypoints")
+    return entry.load()()
 
 
 @attrs.frozen(kw_only=True)

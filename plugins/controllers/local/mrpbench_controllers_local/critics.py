@@ -94,10 +94,10 @@ def chosen(
     Raises:
         InputError: the block is wrong, or a critic would score twice.
     """
-    found: tuple[C, ...] = ()
+    listed: tuple[C, ...] = ()
     if block is not None:
-        found = tuple(_from_nav2(block, name, known) for name in block.take_names("critics"))
-    critics = own or found or default
+        listed = tuple(_from_nav2(block, name, known) for name in block.take_names("critics"))
+    critics = own or listed or default
     kinds = {type(critic) for critic in critics}
     if twice := next((critic for critic in extra if type(critic) in kinds), None):
         raise InputError(f"extra_critics: {type(twice).__name__} is there already", hint="set its weight in `critics`")

@@ -152,9 +152,9 @@ class LocalController(Controller):
         def read(namespace: str) -> tuple[_Read, tuple[str, ...]]:
             server = controller_server(file, namespace)
             costmap = file.node("local_costmap", namespace) if "local_costmap" in file.nodes else None
-            found = self._of_blocks(robot, server, costmap)
+            parameters = self._of_blocks(robot, server, costmap)
             block = controller_block(server, self.nav2_plugin, self.controller_id)
-            return found, (
+            return parameters, (
                 *controller_notes(server, block),
                 *not_used(server, costmap),
                 *costmap_notes(file, namespace),

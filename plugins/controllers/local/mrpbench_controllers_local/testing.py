@@ -73,10 +73,10 @@ def trajectories(samples: int) -> Trajectories:
 
 def scores(session: CriticSession, given: Trajectories) -> Float:
     """The scores of a session, one number for each trajectory."""
-    found: Any = session.score(given)
+    values: Any = session.score(given)
     count = len(given.twist)
-    right = isinstance(found, np.ndarray) and found.shape == (count,)
-    require(right, f"score returns {found!r} for {count} trajectories: return f8[{count}]")
-    require(not np.isnan(found).any(), "a score is NaN: return infinity for what must not be driven")
-    require(not (found == -np.inf).any(), "a score is -infinity, which no other critic can outweigh")
-    return np.asarray(found, float)
+    right = isinstance(values, np.ndarray) and values.shape == (count,)
+    require(right, f"score returns {values!r} for {count} trajectories: return f8[{count}]")
+    require(not np.isnan(values).any(), "a score is NaN: return infinity for what must not be driven")
+    require(not (values == -np.inf).any(), "a score is -infinity, which no other critic can outweigh")
+    return np.asarray(values, float)

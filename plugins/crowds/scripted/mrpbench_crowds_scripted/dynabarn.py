@@ -40,21 +40,21 @@ class DynaBarnObstacles(Crowd):
         chosen = [(row["class"], row["index"]) for _, row in worlds if row["world"] == str(self.index)]
         if not chosen:
             raise InputError(f"has no world {self.index}", file=self.worlds)
-        found: dict[tuple[str, str], list[tuple[float, float, float]]] = defaultdict(list)
+        keyframes: dict[tuple[str, str], list[tuple[float, float, float]]] = defaultdict(list)
         for line, row in read_rows(self.keyframes, ("class", "index", "t", "x", "y")):
             key = row["class"], row["index"]
             if key not in chosen:
                 continue
             try:
-                found[key].append((float(row["t"]), float(row["x"]), float(row["y"])))
+                keyframes[key].append((float(row["t"]), float(row["x"]), float(row["y"])))
             except (TypeError, ValueError):
                 raise InputError("t, x and y must be numbers", file=self.keyframes, line=line) from None
         tracks = []
         for key in chosen:
-            if key not in found:
+            if key not in keyframes:
                 raise InputError(f"has no obstacle {' '.join(key)}", file=self.keyframes)
             try:
-                tracks.append(Track(keyframes=tuple(found[key]), loop=True, jump=True))
+                tracks.append(Track(keyframes=tuple(keyframes[key]), loop=True, jump=True))
             except ValueError as error:
                 raise InputError(f"obstacle {' '.join(key)}: {error}", file=self.keyframes) from None
         return ScriptedSession(tuple(tracks), len(tracks), Mover(radius=RADIUS, kind="obstacle", leg_radius=0.0))

@@ -164,4 +164,4 @@ def _read(file: Path) -> tuple[Track, ...]:
             said = f"the times of {line['id']!r:.40} must increase, and numbers be finite"
             raise InputError(said, file=file, line=number)
         earlier.append(row)
-    return tuple(Track(keyframes=tuple(found)) for found in rows.values())
+    return tuple(Track(keyframes=tuple(keyframes)) for keyframes in rows.values())

@@ -74,8 +74,8 @@ class Floor:
     def nearest(self, place: Float, within: float = 1.0) -> Float | None:
         """Return the nearest of `places` to a place f8[2]; None if none is within so many metres."""
         away = np.hypot(*(self.places - place).T)
-        found: Float = self.places[away.argmin()]
-        return found if away.min() <= within else None
+        closest: Float = self.places[away.argmin()]
+        return closest if away.min() <= within else None
 
     def towards(self, place: Float, goal: Float) -> Float:
         """The points f8[k,2] to which to walk straight on the ways from places to goals, f8[k,2] each."""

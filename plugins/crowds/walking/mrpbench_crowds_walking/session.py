@@ -294,7 +294,7 @@ class WalkingSession(CrowdSession):
                     f"crowds: person {index} of `given` begins at {person.start}, inside a robot or a mover"
                 )
             taken.append(np.array(person.start, float))
-        found: list[Float] = []
+        starts: list[Float] = []
         places = self._floor.places
         orders: dict[tuple[float, ...], Iterator[Float]] = {(): iter(places[drawn.permutation(len(places))])}
         for person in range(self._people):
@@ -302,12 +302,12 @@ class WalkingSession(CrowdSession):
             if near not in orders:
                 orders[near] = iter(places[np.hypot(*(places - near).T).argsort(kind="stable")])
             for place in orders[near]:  # what is taken stays so
-                if _apart(place, [*taken, *found], 2 * recipe.radius + APART) and _apart(place, bodies, reach + APART):
-                    found.append(place)
+                if _apart(place, [*taken, *starts], 2 * recipe.radius + APART) and _apart(place, bodies, reach + APART):
+                    starts.append(place)
                     break
             else:
-                raise InputError(f"crowds: there is room for {len(found)} of {self._people} people")
-        return np.array([*found, *taken]).reshape(-1, 2)
+                raise InputError(f"crowds: there is room for {len(starts)} of {self._people} people")
+        return np.array([*starts, *taken]).reshape(-1, 2)
 
 
 _NO_LEAVES = np.empty((0, 4))

@@ -90,7 +90,7 @@ class BagWriter(FormatWriter):
         said.append((CONTACTS, contacts(block, (*self.names, *self.context.mover_names), self.start)))
         said.append((EVENTS, events(block, self.names, self.start)))
         yield from chain.from_iterable(
-            ((stamp, topic, data) for stamp, data in found) for topic, found in said if self._wanted(topic)
+            ((stamp, topic, data) for stamp, data in messages) for topic, messages in said if self._wanted(topic)
         )
         yield from (new for new in self.facilities.messages(block, self.start) if self._wanted(new[1]))
         yield from (new for new in routes(block, self.context, self.start) if self._wanted(new[1]))

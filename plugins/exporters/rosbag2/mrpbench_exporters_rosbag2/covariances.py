@@ -75,9 +75,9 @@ class _Mean:
 
 def _difference(left: Float, right: Float) -> Float:
     """Poses minus poses f8[...,3], with the yaw in (-pi, pi]."""
-    found = left - right
-    found[..., 2] = wrapped(found[..., 2])
-    return found
+    difference = left - right
+    difference[..., 2] = wrapped(difference[..., 2])
+    return difference
 
 
 def _relative(pose: Float, frame: Float) -> Float:

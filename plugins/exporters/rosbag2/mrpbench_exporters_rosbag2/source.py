@@ -77,8 +77,8 @@ class TopicSource:
 
     def messages(self, block: Chunk, start: int) -> Iterator[tuple[int, bytes]]:
         """Stamp (nanoseconds) and bytes of each message of a block, in order of time."""
-        found = self.rows(block)
-        if found is None or not len(found[0]):
+        rows = self.rows(block)
+        if rows is None or not len(rows[0]):
             return
-        stamps = nanoseconds(found[0]) + start
-        yield from zip(stamps.tolist(), self.template.fill(stamps, **found[1]), strict=True)
+        stamps = nanoseconds(rows[0]) + start
+        yield from zip(stamps.tolist(), self.template.fill(stamps, **rows[1]), strict=True)

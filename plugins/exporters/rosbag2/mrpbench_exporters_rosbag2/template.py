@@ -38,7 +38,7 @@ class Template:
         data = serialize(type_name, message, types)
         self.data = np.frombuffer(data, np.uint8)
         self.places = {
-            name: (numbers, [found.start() for found in re.finditer(re.escape(numbers.tobytes()), data)])
+            name: (numbers, [match.start() for match in re.finditer(re.escape(numbers.tobytes()), data)])
             for name, numbers in {"stamp": _split(np.array([STAMP])), **holes}.items()
         }
 

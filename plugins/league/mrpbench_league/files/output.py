@@ -103,15 +103,15 @@ def _events(data: JsonObject, season: int, robots: int) -> tuple[Event, ...] | N
         return None
     if season > 2023:
         return tuple(tuple(_wholes(data, "events", one, 4)) for one in data.items("events"))  # type: ignore[misc]
-    found: list[Event] = []
+    read_events: list[Event] = []
     words = {"assigned": 0, "finished": 1}
     for robot, events in enumerate(data.items("events", robots)):
         for one in events if isinstance(events, list) else [events]:
             if not isinstance(one, list) or len(one) != 3 or one[2] not in tuple(words):
                 raise data.error("events", f'{str(one)[:80]} should be [task, time, "assigned" or "finished"]')
             task, time = _wholes(data, "events", one[:2])
-            found.append((time, robot, task, words[one[2]]))
-    return tuple(found)
+            read_events.append((time, robot, task, words[one[2]]))
+    return tuple(read_events)
 
 
 def _task(data: JsonObject, value: Any, season: int) -> tuple[int, int, tuple[int, ...]]:
@@ -128,7 +128,7 @@ def _task(data: JsonObject, value: Any, season: int) -> tuple[int, int, tuple[in
 
 
 def _schedule(data: JsonObject, robots: int) -> tuple[tuple[tuple[int, int], ...], ...]:
-    found = []
+    schedule = []
     for robot, text in enumerate(data.items("actualSchedule", robots)):
         try:
             parts = [part.split(":") for part in _text(text).split(",") if part]
@@ -139,8 +139,8 @@ def _schedule(data: JsonObject, robots: int) -> tuple[tuple[tuple[int, int], ...
             entries[0] = (0, entries[0][1])
         if any(late < early for (early, _), (late, _) in pairwise(entries)):
             raise data.error("actualSchedule", f"robot {robot}: times should increase")
-        found.append(tuple(entries))
-    return tuple(found)
+        schedule.append(tuple(entries))
+    return tuple(schedule)
 
 
 def _delays(data: JsonObject, robots: int) -> tuple[tuple[tuple[int, int], ...], ...]:

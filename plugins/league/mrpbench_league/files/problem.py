@@ -136,7 +136,7 @@ def _read_cells(file: Path, blocked: Bool, *, single: bool) -> list[tuple[int, l
     if len(lines) <= count:
         raise InputError(f"has {len(lines) - 1} of {count} lines", file=file)
     free = ~blocked.ravel()
-    found = []
+    lists = []
     for number, line in lines[1 : count + 1]:
         words = [word.strip() for word in line.rstrip(",").split(",")]
         if single and len(words) > 1:
@@ -148,8 +148,8 @@ def _read_cells(file: Path, blocked: Bool, *, single: bool) -> list[tuple[int, l
                 raise InputError(f"cell {word} is outside the map of {free.size} cells", file=file, line=number)
             if not free[int(word)]:
                 raise InputError(f"cell {word} is blocked", file=file, line=number)
-        found.append((number, [int(word) for word in words]))
-    return found
+        lists.append((number, [int(word) for word in words]))
+    return lists
 
 
 def _require_distinct(file: Path, starts: list[tuple[int, list[int]]]) -> None:

@@ -67,8 +67,8 @@ def _check_swaps(before: Int, after: Int, time: int, faults: Faults) -> None:
     edges = before[moving] * span + after[moving]
     back = after[moving] * span + before[moving]
     swapping = np.flatnonzero(np.isin(edges, back))
-    found = {int(edges[i]): int(moving[i]) for i in swapping}
+    robot_on = {int(edges[i]): int(moving[i]) for i in swapping}
     for i in swapping:
-        first, second = int(moving[i]), found[int(back[i])]
+        first, second = int(moving[i]), robot_on[int(back[i])]
         if first < second:
             faults.add(time, f"edge conflict: robots {first} and {second} swap their cells")

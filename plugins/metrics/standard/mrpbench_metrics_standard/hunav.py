@@ -106,8 +106,8 @@ def hunav(time: Float, pose: Float, twist: Float, seen: Encounters) -> dict[str,
 
 
 def _length(vectors: Float) -> Float:
-    found: Float = np.hypot(vectors[..., 0], vectors[..., 1])
-    return found
+    length: Float = np.hypot(vectors[..., 0], vectors[..., 1])
+    return length
 
 
 def social_force(offset: Float, velocity: Float) -> Float:
@@ -127,5 +127,5 @@ def social_force(offset: Float, velocity: Float) -> Float:
     width = WIDTH * length
     slower = np.exp(-distance / width - (ALONG * width * angle) ** 2)
     aside = np.sign(angle) * np.exp(-distance / width - (ACROSS * width * angle) ** 2)
-    found: Float = -FACTOR * (slower[..., None] * along + aside[..., None] * left)
-    return found
+    force: Float = -FACTOR * (slower[..., None] * along + aside[..., None] * left)
+    return force

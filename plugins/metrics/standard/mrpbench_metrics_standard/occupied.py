@@ -30,7 +30,7 @@ def occupied_periods(run: FinishedRun) -> Float:
 def occupied(run: FinishedRun) -> Bool:
     """bool[T,n]: whether a robot has a task just before a sample."""
     time = run.channel("time")
-    found = np.zeros((len(time), len(run.context.fleet)), bool)
+    occupied = np.zeros((len(time), len(run.context.fleet)), bool)
     for robot, since, until in occupied_periods(run):
-        found[(time > since) & (time <= until), int(robot)] = True
-    return found
+        occupied[(time > since) & (time <= until), int(robot)] = True
+    return occupied

@@ -234,5 +234,5 @@ def time_to_collision(offset: Float, velocity: Float, reach: Float) -> Float:
     root = closing**2 - speed * apart
     meets = (closing < 0) & (root >= 0)
     left = (-closing - np.sqrt(np.where(meets, root, 0.0))) / np.where(meets, speed, 1.0)
-    found: Float = np.where(apart <= 0, 0.0, np.where(meets, left, np.inf))
-    return found
+    remaining: Float = np.where(apart <= 0, 0.0, np.where(meets, left, np.inf))
+    return remaining

@@ -71,17 +71,17 @@ def solid_distances(points: Float, segments: Float) -> Float:
     The result is exact: each tile keeps the segments that may be nearest to a place in it. The distance of a place from
     anything differs from that of the tile's centre by half a diagonal at most.
     """
-    found = np.full(len(points), np.inf)
+    distances = np.full(len(points), np.inf)
     if len(points) and len(segments):
-        _search(points, np.arange(len(points)), segments, TILES, found)
-    return found
+        _search(points, np.arange(len(points)), segments, TILES, distances)
+    return distances
 
 
-def _search(points: Float, chosen: Int, segments: Float, sides: tuple[float, ...], found: Float) -> None:
+def _search(points: Float, chosen: Int, segments: Float, sides: tuple[float, ...], distances: Float) -> None:
     if not sides:
         start, end = segments[:, :2], segments[:, 2:]
         for part in np.array_split(chosen, 1 + len(chosen) * len(segments) // TOGETHER):
-            found[part] = point_segment_distance(points[part][:, None], start, end).min(axis=1)
+            distances[part] = point_segment_distance(points[part][:, None], start, end).min(axis=1)
         return
     side = sides[0]
     tile = np.floor(points[chosen] / side).astype(np.int64)
@@ -91,4 +91,4 @@ def _search(points: Float, chosen: Int, segments: Float, sides: tuple[float, ...
     for inside, first in zip(np.split(chosen, ends), np.append(0, ends), strict=True):
         away = point_segment_distance((tile[first] + 0.5) * side, segments[:, :2], segments[:, 2:])
         near = away <= away.min() + side * np.sqrt(2) + 1e-9
-        _search(points, inside, segments[near], sides[1:], found)
+        _search(points, inside, segments[near], sides[1:], distances)

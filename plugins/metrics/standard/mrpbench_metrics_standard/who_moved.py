@@ -58,5 +58,5 @@ def _gap(footprint: Float, pose: Float, centre: Float, radius: Float) -> Float:
     cosine, sine = np.cos(pose[:, 2]), np.sin(pose[:, 2])
     local = np.column_stack([cosine * offset[:, 0] + sine * offset[:, 1], cosine * offset[:, 1] - sine * offset[:, 0]])
     edges = point_segment_distance(local[:, None], footprint, np.roll(footprint, -1, axis=0)).min(axis=1)
-    found: Float = np.where(inside(footprint, local), -edges, edges) - radius
-    return found
+    gap: Float = np.where(inside(footprint, local), -edges, edges) - radius
+    return gap

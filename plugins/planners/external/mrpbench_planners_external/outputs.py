@@ -28,20 +28,20 @@ class UnreadableError(Exception):
 
 def read_agents(text: str) -> Cells:
     """Lines `Agent i: (row,column)->...`."""
-    found = {
+    cells_of_agents = {
         int(robot): [(int(row), int(column)) for row, column in _CELL.findall(cells)]
         for robot, cells in _AGENT.findall(text)
     }
-    return _in_order(found, "Agent")
+    return _in_order(cells_of_agents, "Agent")
 
 
 def read_steps(text: str) -> Cells:
     """Lines `t:(column,row),...`."""
-    found = {
+    cells_of_steps = {
         int(step): [(int(row), int(column)) for column, row in _CELL.findall(cells)]
         for step, cells in _STEP.findall(text)
     }
-    steps = _in_order(found, "time step")
+    steps = _in_order(cells_of_steps, "time step")
     if len({len(step) for step in steps}) > 1:
         raise UnreadableError("its time steps have different numbers of robots")
     return [list(path) for path in zip(*steps, strict=True)]
@@ -55,13 +55,13 @@ def read_schedule(text: str) -> Cells:
         raise UnreadableError(f"it is not YAML: {error}") from error
     if not isinstance(document, dict) or not isinstance(document.get("schedule"), dict):
         raise UnreadableError("it has no `schedule`")
-    found = {}
+    cells = {}
     for name, states in document["schedule"].items():
         number = re.search(r"\d{1,9}$", str(name))
         if number is None:
             raise UnreadableError(f"robot {name!r} has no number")
-        found[int(number[0])] = _held(states)
-    return _in_order(found, "robot")
+        cells[int(number[0])] = _held(states)
+    return _in_order(cells, "robot")
 
 
 READERS: Mapping[str, Callable[[str], Cells]] = {
@@ -86,8 +86,8 @@ def _held(states: object) -> list[tuple[int, int]]:
     return path
 
 
-def _in_order(found: dict[int, list[tuple[int, int]]], what: str) -> Cells:
-    missing = [index for index in range(len(found)) if index not in found]
-    if not found or missing:
+def _in_order(cells: dict[int, list[tuple[int, int]]], what: str) -> Cells:
+    missing = [index for index in range(len(cells)) if index not in cells]
+    if not cells or missing:
         raise UnreadableError(f"it has no {what} {missing[0] if missing else 0}")
-    return [found[index] for index in range(len(found))]
+    return [cells[index] for index in range(len(cells))]

@@ -57,7 +57,7 @@ def expect(slots: str, invocation: Invocation, folder: Path, *, trusted: bool) -
         InputErrors, InputError: no run can be made of it.
     """
     try:
-        found = call(
+        packed = call(
             slots,
             packed_runs,
             invocation.document(),
@@ -68,7 +68,7 @@ def expect(slots: str, invocation: Invocation, folder: Path, *, trusted: bool) -
         )
     except CallFailedError as failure:
         raise InputError(f"the configuration cannot be read: {failure}") from failure
-    return Expected(study=unpack_study(found["study"]), files=tuple(found["files"]))
+    return Expected(study=unpack_study(packed["study"]), files=tuple(packed["files"]))
 
 
 def packed_runs(document: Mapping[str, Any], overrides: Sequence[str], folder: str, trusted: bool) -> dict[str, Any]:

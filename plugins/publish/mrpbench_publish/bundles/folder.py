@@ -42,7 +42,7 @@ class Documents:
 
 def read_documents(folder: ResultsFolder) -> Documents:
     """Read the documents of all invocations of a folder."""
-    found: dict[str, Mapping[str, Any]] = {}
+    documents: dict[str, Mapping[str, Any]] = {}
     faults = []
     for file in sorted((folder.path / "invocations").glob("*.yaml")):
         try:
@@ -53,13 +53,13 @@ def read_documents(folder: ResultsFolder) -> Documents:
         if fault := _fault(data, file.stem):
             faults.append(f"{file.name}: {fault}")
         else:
-            found[file.stem] = data
+            documents[file.stem] = data
     faults += [
         f"{shard.name}: its invocation has no document, so it is unknown what was asked for"
         for shard in folder.shards()
-        if shard.stem not in found
+        if shard.stem not in documents
     ]
-    return Documents(by_name=found, faults=tuple(faults))
+    return Documents(by_name=documents, faults=tuple(faults))
 
 
 def _fault(data: Any, name: str) -> str | None:

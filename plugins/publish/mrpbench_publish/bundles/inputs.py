@@ -90,8 +90,8 @@ def full_names(value: Any, folder: Path) -> dict[str, str]:
         return {full: name for inner in value for full, name in full_names(inner, folder).items()}
     if not isinstance(value, str):
         return {}
-    found = [value] if value.startswith("/") else _FULL_NAME.findall(value)
-    return {full: Path(os.path.relpath(full, folder)).as_posix() for full in found if Path(full).is_file()}
+    names = [value] if value.startswith("/") else _FULL_NAME.findall(value)
+    return {full: Path(os.path.relpath(full, folder)).as_posix() for full in names if Path(full).is_file()}
 
 
 def _height(name: str) -> int:

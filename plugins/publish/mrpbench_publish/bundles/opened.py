@@ -45,19 +45,19 @@ class Stored:
     @property
     def machine(self) -> dict[str, Any]:
         """The machine that it says it was made on."""
-        found = self.provenance.get("machine")
-        return found if isinstance(found, dict) else {}
+        value = self.provenance.get("machine")
+        return value if isinstance(value, dict) else {}
 
     def block(self, key: str) -> dict[str, Any]:
         """A block of its configuration; empty for anything else."""
-        found = self.record["config"].get(key)
-        return found if isinstance(found, dict) else {}
+        value = self.record["config"].get(key)
+        return value if isinstance(value, dict) else {}
 
     @property
     def files(self) -> list[str]:
         """SHA-256 and name of each file that the record names."""
-        found = self.provenance.get("files")
-        return [line for line in found if isinstance(line, str)] if isinstance(found, list) else []
+        value = self.provenance.get("files")
+        return [line for line in value if isinstance(line, str)] if isinstance(value, list) else []
 
     @property
     def recording(self) -> str | None:

@@ -73,7 +73,7 @@ def publish(folders: Sequence[Results], out: Path, options: PublishOptions, slot
     if faults := [InputError(fault, file=results.folder.path) for results, it in read for fault in it.faults]:
         raise InputErrors(*faults)
     _require_each_once(folders)
-    documents = {name: document for _, found in read for name, document in found.by_name.items()}
+    documents = {name: document for _, documents_of in read for name, document in documents_of.by_name.items()}
     names = full_names([[entry["study"], entry.get("overrides") or []] for entry in documents.values()], options.inputs)
     expected = _expected(read, names, options.inputs, slots)
     _require_finished(folders, expected)
@@ -134,8 +134,8 @@ def _expected(
 ) -> list[Expected]:
     """The runs that the invocations describe; those of the newest invocation are last."""
     asked: dict[str, Any] = {}
-    for results, found in read:
-        for name, invocation in sorted(found.invocations(results, names).items()):
+    for results, documents in read:
+        for name, invocation in sorted(documents.invocations(results, names).items()):
             asked.pop(repr(invocation), None)
             asked[repr(invocation)] = name, invocation
     newest_last = sorted(asked.values(), key=lambda entry: entry[0])
@@ -159,7 +159,7 @@ def _require_each_once(folders: Sequence[Results]) -> None:
 
 def _require_finished(folders: Sequence[Results], expected: Sequence[Expected]) -> None:
     """Require that the records are those of the studies, no less and no more."""
-    wanted = {point.run_id for found in expected for point in found.study.runs}
+    wanted = {point.run_id for entry in expected for point in entry.study.runs}
     recorded = {record["run_id"] for results in folders for record in results}
     if missing := sorted(wanted - recorded):
         raise InputError(
@@ -168,7 +168,7 @@ def _require_finished(folders: Sequence[Results], expected: Sequence[Expected]) 
             hint="the study is unfinished: `mrpbench run` continues it",
         )
     if unknown := sorted(recorded - wanted):
-        errors = [error for found in expected for error in found.study.errors]
+        errors = [error for entry in expected for error in entry.study.errors]
         raise InputErrors(
             *errors,
             InputError(
@@ -181,7 +181,7 @@ def _require_finished(folders: Sequence[Results], expected: Sequence[Expected]) 
 
 def _require_one_version(folders: Sequence[Results], expected: Sequence[Expected]) -> None:
     """Require one version of each distribution, and files and local plugins as they were."""
-    now = {point.run_id: point for found in expected for point in found.study.runs}
+    now = {point.run_id: point for those in expected for point in those.study.runs}
     versions: dict[str, set[str]] = {}
     for results in folders:
         for record in results:
@@ -201,10 +201,10 @@ def _require_one_version(folders: Sequence[Results], expected: Sequence[Expected
                         file=entry["file"],
                         hint="restore it, or repeat the runs with --rerun changed",
                     )
-    if mixed := {name: found for name, found in versions.items() if len(found) > 1}:
+    if mixed := {name: those for name, those in versions.items() if len(those) > 1}:
         raise InputError(
             "the records have several versions: "
-            + "; ".join(f"{name} {' and '.join(sorted(found))}" for name, found in sorted(mixed.items())),
+            + "; ".join(f"{name} {' and '.join(sorted(those))}" for name, those in sorted(mixed.items())),
             file=folders[0].folder.path,
             hint="`mrpbench run --rerun changed` repeats the older ones",
         )
@@ -217,21 +217,21 @@ def _recordings(folders: Sequence[Results], share: float) -> dict[str, Path | by
         for record in results:
             if any("  recordings/" in line for line in (record.get("provenance") or {}).get("files") or ()):
                 kept[record["run_id"]] = results, record
-    found: dict[str, Path | bytes] = {}
+    files: dict[str, Path | bytes] = {}
     for run_id in drawn(kept, share):
         results, record = kept[run_id]
         file = results.paths(run_id).recording
         if not file.is_file():
             raise InputError("is no longer there", file=file, hint="`--recordings none` publishes the records alone")
         check_recording(record, file)
-        found[f"{RESULTS}/recordings/{file.name}"] = file
+        files[f"{RESULTS}/recordings/{file.name}"] = file
         recording = Recording(file)
         name = recording.instance_name
         recording.close()
         if name is not None:
             parts = InstanceFolder(results.folder.instances).files_of(name)
-            found |= {f"{RESULTS}/instances/{part.name}": part for part in parts}
-    return found
+            files |= {f"{RESULTS}/instances/{part.name}": part for part in parts}
+    return files
 
 
 def _lines(shard: Path) -> Path | bytes:

@@ -69,7 +69,7 @@ def grouped(faults: Iterable[Fault | str]) -> tuple[str, ...]:
     for fault in faults:
         subject, text = ("", fault) if isinstance(fault, str) else fault
         subjects.setdefault(text, []).append(subject)
-    return tuple(f"{_names(found)}{text}" for text, found in subjects.items())
+    return tuple(f"{_names(names)}{text}" for text, names in subjects.items())
 
 
 def _names(subjects: list[str]) -> str:

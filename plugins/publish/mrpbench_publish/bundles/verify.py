@@ -157,14 +157,14 @@ def _scenarios(records: Sequence[Stored], runs: dict[str, StudyRun], call_in_wor
     if not parcels:
         return checked("scenarios", (), covered, unchecked="no run can be made here")
     try:
-        found = dict(zip(parcels, call_in_worker(scenario_ids, list(parcels.values())), strict=True))
+        ids = dict(zip(parcels, call_in_worker(scenario_ids, list(parcels.values())), strict=True))
     except CallFailedError as failure:
         return checked("scenarios", [f"they cannot be drawn here: {failure}"], covered)
     faults = [
         (stored.run_id, "does not have the scenario that its configuration draws")
         for stored in records
         if stored.record.get("scenario_id") is not None
-        and found[scenario_key(stored.record["config"])] != stored.record["scenario_id"]
+        and ids[scenario_key(stored.record["config"])] != stored.record["scenario_id"]
     ]
     return checked("scenarios", faults, covered)
 
@@ -180,13 +180,13 @@ def _recordings(bundle: Opened, records: Sequence[Stored], runs: dict[str, Study
         count += 1
         run = runs[stored.run_id]
         try:
-            found = call_in_worker(recording_faults, run.parcel, run.facts, stored.record, str(file))
+            faults_of_run = call_in_worker(recording_faults, run.parcel, run.facts, stored.record, str(file))
             for metric in run.facts["others_metrics"] if stored.record.get("metrics") else ():
                 given = run.parcel, run.facts, metric["number"], stored.record, str(file)
-                found += call_in_worker(measured_faults, *given)
+                faults_of_run += call_in_worker(measured_faults, *given)
         except CallFailedError as failure:
-            found = [f"its recording cannot be checked: {failure}"]
-        faults += [(stored.run_id, fault) for fault in found]
+            faults_of_run = [f"its recording cannot be checked: {failure}"]
+        faults += [(stored.run_id, fault) for fault in faults_of_run]
     covered = counted(count, "recording") + ": plans validated, metrics computed again"
     return checked("recordings", faults, covered, unchecked=None if count else "there are no recordings")
 

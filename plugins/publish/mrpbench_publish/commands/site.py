@@ -100,12 +100,12 @@ def _verdict(file: Path, sha256: str) -> Mapping[str, Any]:
         with slots_of_this_process() as slots:
             return verify(file, VerifyOptions(), slots).document()
     try:
-        found = json.loads(read_text(stored))
+        value = json.loads(read_text(stored))
     except (ValueError, RecursionError):
         raise InputError("is not a verdict", file=stored, hint="`mrpbench verify --out` writes it") from None
-    if not isinstance(found, dict) or found.get("sha256") != sha256:
+    if not isinstance(value, dict) or value.get("sha256") != sha256:
         raise InputError(f"is not the verdict of {file.name}", file=stored, hint="verify the bundle again")
-    return found
+    return value
 
 
 def _stored(entry: "Entry", file: Path, out: Path) -> "Entry":
@@ -125,14 +125,14 @@ def _with_replays(entry: "Entry", report: "Report", place: int, out: Path, most:
     from mrpbench_core.cli.output.replays import try_write_replay
 
     results = report.folders[place]
-    found: dict[str, str] = {}
+    replays: dict[str, str] = {}
     (out / "replays").mkdir(exist_ok=True)
     for index in report.failures_first().tolist():
-        if len(found) == most:
+        if len(replays) == most:
             break
         run_id = report.runs.run_id[index]
         if int(report.runs.folder[index]) != place or not results.paths(run_id).recording.is_file():
             continue
         if try_write_replay(results, run_id, out / "replays" / f"{run_id}.html"):
-            found[run_id] = f"replays/{run_id}.html"
-    return attrs.evolve(entry, replays=found)
+            replays[run_id] = f"replays/{run_id}.html"
+    return attrs.evolve(entry, replays=replays)

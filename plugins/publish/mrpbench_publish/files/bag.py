@@ -66,11 +66,11 @@ def bag_faults(folder: Path) -> Iterator[str]:
 def _listed(folder: Path, manifest: str, expected: set[str]) -> Iterator[str]:
     sums: dict[str, str] = {}
     for number, line in enumerate(read_text(folder / manifest).splitlines(), 1):
-        found = _LINE.fullmatch(line)
-        if found is None or _decoded(found[2]) in sums:
+        match = _LINE.fullmatch(line)
+        if match is None or _decoded(match[2]) in sums:
             yield f"{manifest}:{number} is not a line of a manifest, or repeats one"
         else:
-            sums[_decoded(found[2])] = found[1]
+            sums[_decoded(match[2])] = match[1]
     for name in sorted(expected - sums.keys()):
         yield f"{name} is not listed in {manifest}"
     for name in sorted(sums.keys() - expected):
@@ -90,7 +90,7 @@ def _manifest(sums: Mapping[str, str]) -> bytes:
 
 def _encoded(name: str) -> str:
     """Escape what RFC 8493 escapes in names: line ends and the percent sign."""
-    return re.sub(r"[%\r\n]", lambda found: quote(found[0], safe=""), name)
+    return re.sub(r"[%\r\n]", lambda match: quote(match[0], safe=""), name)
 
 
 def _decoded(name: str) -> str:

@@ -38,10 +38,10 @@ class Author:
         Raises:
             InputError: it is neither.
         """
-        found = _AUTHOR.fullmatch(text.strip())
-        if found is None:
+        match = _AUTHOR.fullmatch(text.strip())
+        if match is None:
             raise InputError(f"--author {text}: expected a name", hint='e.g. "Ada Lovelace <0000-0002-1825-0097>"')
-        return cls(name=" ".join(found["name"].split()), orcid=found["orcid"])
+        return cls(name=" ".join(match["name"].split()), orcid=match["orcid"])
 
     @property
     def _id(self) -> str:
@@ -146,7 +146,7 @@ def read_description(text: bytes) -> Description:
         graph = {entity["@id"]: entity for entity in json.loads(text)["@graph"]}
         root = graph["./"]
         people = [graph[author["@id"]] for author in root["author"]]
-        found = Description(
+        description = Description(
             title=root["name"],
             text=root["description"],
             authors=tuple(
@@ -159,12 +159,15 @@ def read_description(text: bytes) -> Description:
             license=root["license"]["@id"].removeprefix(SPDX),
             published=root["datePublished"],
         )
-        date.fromisoformat(found.published)
+        date.fromisoformat(description.published)
     except (KeyError, TypeError, AttributeError, IndexError, RecursionError) as error:
         raise ValueError(f"{type(error).__name__} {error}") from None
-    if not all(isinstance(word, str) for word in (found.title, found.text, *(author.name for author in found.authors))):
+    if not all(
+        isinstance(word, str)
+        for word in (description.title, description.text, *(author.name for author in description.authors))
+    ):
         raise ValueError("title, text or names are not text")
-    return found
+    return description
 
 
 def _file(name: str) -> dict[str, Any]:
@@ -181,8 +184,8 @@ def _software(invocations: Mapping[str, Mapping[str, Any]], version: str) -> lis
 
 
 def _versions(document: Mapping[str, Any]) -> list[tuple[str, str]]:
-    found = document.get("versions")
-    return sorted((str(name), str(number)) for name, number in found.items()) if isinstance(found, dict) else []
+    versions = document.get("versions")
+    return sorted((str(name), str(number)) for name, number in versions.items()) if isinstance(versions, dict) else []
 
 
 def _of(name: str, version: str) -> str:

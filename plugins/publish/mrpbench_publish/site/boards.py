@@ -116,7 +116,7 @@ def _board(report: Report, number: int, setting: Setting, entries: Sequence[Numb
     columns = tuple(
         column
         for column in report.compared
-        if any(part.get(column.name) for found in entries for part in (found.common, found.overall))
+        if any(part.get(column.name) for entry in entries for part in (entry.common, entry.overall))
         and not (plans and column.name == "planned")
     )
     ranks = {
@@ -135,7 +135,7 @@ def _board(report: Report, number: int, setting: Setting, entries: Sequence[Numb
             run_ids=tuple(runs.run_id[index] for index in group.members),
             cells=tuple(
                 Cell(
-                    estimate=found.common.get(column.name) or found.overall.get(column.name),
+                    estimate=entry.common.get(column.name) or entry.overall.get(column.name),
                     rate=column.name in runs.flags,
                     rank=ranks[column.name][name] if column.name in ranks else None,
                     usual=len(np.unique(setting.units[group.counted])),
@@ -143,7 +143,7 @@ def _board(report: Report, number: int, setting: Setting, entries: Sequence[Numb
                 for column in columns
             ),
         )
-        for name, group, found in zip(setting.names, setting.groups, entries, strict=True)
+        for name, group, entry in zip(setting.names, setting.groups, entries, strict=True)
     ]
     return Board(
         number=number,
@@ -167,8 +167,8 @@ def _limits(rank: Rank | None) -> Iterator[int]:
 
 
 def _simulator(config: Any) -> str:
-    found = config.get("simulator")
-    return _PLANS if found == "none" else str(found["plugin"] if isinstance(found, dict) else found)
+    simulator = config.get("simulator")
+    return _PLANS if simulator == "none" else str(simulator["plugin"] if isinstance(simulator, dict) else simulator)
 
 
 def _robots(config: Any) -> str:
@@ -182,9 +182,9 @@ def _robots(config: Any) -> str:
 
 
 def _plain(cell: Cell) -> dict[str, Any]:
-    found = cell.estimate
-    numbers = None if found is None else {"value": found.value, "n": found.n}
-    if found is not None and numbers is not None and found.has_interval:
-        numbers |= {"low": found.low, "high": found.high}
+    estimate = cell.estimate
+    numbers = None if estimate is None else {"value": estimate.value, "n": estimate.n}
+    if estimate is not None and numbers is not None and estimate.has_interval:
+        numbers |= {"low": estimate.low, "high": estimate.high}
     rank = None if cell.rank is None else [cell.rank.best, cell.rank.worst]
     return {"estimate": numbers, "rank": rank}

@@ -119,8 +119,8 @@ def _index(entries: Sequence[Entry], boards: Sequence[Board]) -> str:
 
 def _leaders(board: Board) -> str:
     """Which configurations may be the first in each column in which some are behind."""
-    found = [(column, board.leaders(place)) for place, column in enumerate(board.columns)]
-    decided = [(column, names) for column, names in found if 0 < len(names) < len(board.rows)]
+    ranked = [(column, board.leaders(place)) for place, column in enumerate(board.columns)]
+    decided = [(column, names) for column, names in ranked if 0 < len(names) < len(board.rows)]
     if not decided:
         return "No clear differences." if len(board.rows) > 1 else ""
     words = (f"First in <b>{escape(column.name)}</b>: {escape(_either(names))}" for column, names in decided)
@@ -193,9 +193,9 @@ def _bundle(entry: Entry) -> str:
     items = "".join(f"<dt>{escape(name)}</dt><dd>{escape(value)}</dd>" for name, value in facts.items())
     rows = []
     for check in entry.verdict.get("checks") or ():
-        found = "".join(f"<li>{escape(str(text))}</li>" for text in check.get("findings") or ())
+        findings = "".join(f"<li>{escape(str(text))}</li>" for text in check.get("findings") or ())
         tone = {"passed": "better", "failed": "worse"}.get(str(check.get("outcome")), "")
-        covered = Td(f"{escape(str(check.get('covered')))}<ul>{found}</ul>", style="words")
+        covered = Td(f"{escape(str(check.get('covered')))}<ul>{findings}</ul>", style="words")
         rows.append((plain(check.get("name")), Td(escape(str(check.get("outcome"))), style=tone), covered))
     pages = [f'<li><a href="../{quote(page)}">{escape(run)}</a></li>' for run, page in entry.replays.items()]
     replays = f"<h3>Replays</h3><ul>{''.join(pages)}</ul>" if pages else ""

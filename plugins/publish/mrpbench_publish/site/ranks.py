@@ -46,7 +46,7 @@ def rank_groups(names: Sequence[str], comparisons: Iterable[Comparison]) -> dict
     for entry in comparisons:
         if not is_shown(entry) or not direction(entry.column):
             continue
-        won = entry.found.difference.value * direction(entry.column) > 0
+        won = entry.paired.difference.value * direction(entry.column) > 0
         ahead, behind = (entry.second, entry.first) if won else (entry.first, entry.second)
         worse[ahead] += 1
         better[behind] += 1

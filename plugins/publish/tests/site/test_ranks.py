@@ -17,13 +17,13 @@ def comparison(first, second, difference, better="lower"):
         first=first,
         second=second,
         column=SimpleNamespace(better=better),
-        found=SimpleNamespace(difference=SimpleNamespace(value=difference)),
+        paired=SimpleNamespace(difference=SimpleNamespace(value=difference)),
     )
 
 
 @pytest.fixture(autouse=True)
 def _shown(monkeypatch):
-    monkeypatch.setattr(ranks, "is_shown", lambda entry: entry.found.difference.value != 0)
+    monkeypatch.setattr(ranks, "is_shown", lambda entry: entry.paired.difference.value != 0)
 
 
 def test_without_a_shown_difference_nothing_is_told_apart():

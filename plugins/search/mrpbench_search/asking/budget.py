@@ -42,8 +42,8 @@ def read_budget(text: str | None) -> Budget:
     """
     if text is None:
         return Budget()
-    if found := _RUNS.fullmatch(text.strip()):
-        return Budget(runs=int(found[1]))
+    if match := _RUNS.fullmatch(text.strip()):
+        return Budget(runs=int(match[1]))
     try:
         wall_s = quantity(text, "s")
     except ValueError:

@@ -32,12 +32,12 @@ class CandidateResult:
 
 def results_of(each: SettingRace, column: Column) -> list[CandidateResult]:
     """Return the results of the candidates of a setting: the best first, then as good, not decided, and the losers."""
-    found, race = each.found, each.race
-    if found is None:
+    outcomes, race = each.outcomes, each.race
+    if outcomes is None:
         names = each.setting.names
         open_ = {"standing": Standing.OPEN, "seeds": 0, "failed": 0, "mean": None, "change": None}
         return [CandidateResult(candidate=name, **open_) for name in names]  # type: ignore[arg-type]
-    rows = [_result(one, each.setting.names[one], race, found, column) for one in range(race.candidates)]
+    rows = [_result(one, each.setting.names[one], race, outcomes, column) for one in range(race.candidates)]
     order = (Standing.BEST, Standing.AS_GOOD, Standing.OPEN, Standing.WORSE, Standing.FAILS, Standing.NOT_JUDGED)
     return sorted(rows, key=lambda row: (order.index(row.standing), abs(row.change or 0.0)))
 
@@ -102,12 +102,12 @@ def table(rows: Sequence[CandidateResult], column: Column) -> tuple[list[str], l
     return ["candidate", "standing", "seeds", "failed", heading(column), "to the best"], cells
 
 
-def _result(one: int, name: str, race: Race, found: Outcomes, column: Column) -> CandidateResult:
-    success, values = found.success[one], found.values[one] * -direction(column)
+def _result(one: int, name: str, race: Race, outcomes: Outcomes, column: Column) -> CandidateResult:
+    success, values = outcomes.success[one], outcomes.values[one] * -direction(column)
     known = values[np.isfinite(values)]
     change = None
     if race.leader is not None and race.leader != one:
-        theirs, mine = found.means([race.leader, one]) * -direction(column)
+        theirs, mine = outcomes.means([race.leader, one]) * -direction(column)
         change = float(mine / theirs - 1) if np.isfinite([mine, theirs]).all() and theirs else None
     return CandidateResult(
         candidate=name,

@@ -24,9 +24,9 @@ def outcomes(setting: Setting, runs: Runs, column: Column, seeds: int) -> Outcom
     for at, seed in enumerate(setting.seeds[:seeds]):
         drawn = set()
         for candidate, points in enumerate(setting.points):
-            found = [place[point.run_id] for point in points[seed] if point.run_id in place]
-            drawn |= {runs.scenario[index] for index in found if runs.scenario[index] >= 0}
-            counted = [index for index in found if runs.counted[index]]
+            indices = [place[point.run_id] for point in points[seed] if point.run_id in place]
+            drawn |= {runs.scenario[index] for index in indices if runs.scenario[index] >= 0}
+            counted = [index for index in indices if runs.counted[index]]
             success[candidate, at] = _mean(runs.values["succeeded"][counted])
             values[candidate, at] = _mean(metric[[index for index in counted if runs.values["succeeded"][index]]])
         if len(drawn) > 1:

@@ -104,18 +104,18 @@ class Race:
         running = self.open if self.leader is None else sorted([self.leader, *self.open])
         return running, self.looks.seeds[self.done]
 
-    def judge(self, found: Outcomes) -> None:
+    def judge(self, outcomes: Outcomes) -> None:
         """Judge the outcomes of the candidates in `wanted`."""
         running, seeds = self.wanted
         self.seeds |= dict.fromkeys(running, seeds)
-        self.not_judged |= {one for one in running if not np.isfinite(found.success[one]).any()}
+        self.not_judged |= {one for one in running if not np.isfinite(outcomes.success[one]).any()}
         self.done += 1
-        self._drop([one for one in running if one not in self.not_judged], found, seeds)
+        self._drop([one for one in running if one not in self.not_judged], outcomes, seeds)
         if not (left := [one for one in running if one in self.remaining]):
             return
-        self.leader = leading(left, found)
+        self.leader = leading(left, outcomes)
         for one in self.open:
-            if one in running and self._is_as_good(one, self.leader, found):
+            if one in running and self._is_as_good(one, self.leader, outcomes):
                 self.equal[frozenset((one, self.leader))] = seeds
 
     def standing(self, candidate: int) -> Standing:
@@ -128,9 +128,9 @@ class Race:
             return Standing.BEST
         return Standing.OPEN if candidate in self.open else Standing.AS_GOOD
 
-    def _drop(self, running: Sequence[int], found: Outcomes, seeds: int) -> None:
+    def _drop(self, running: Sequence[int], outcomes: Outcomes, seeds: int) -> None:
         """Drop candidates, the clearest first, as long as Holm's growing level allows."""
-        found_tests = {one: _tests(one, [by for by in running if by != one], found) for one in running}
+        found_tests = {one: _tests(one, [by for by in running if by != one], outcomes) for one in running}
         ordered = sorted(
             (test.p, one, by, standing) for one, tests in found_tests.items() for by, standing, test in tests
         )
@@ -139,35 +139,35 @@ class Race:
             if one not in self.dropped and p <= shared_level(level, [test.least for *_, test in found_tests[one]]):
                 self.dropped[one] = Dropped(by=by, seeds=seeds, standing=standing, p=p)
 
-    def _is_as_good(self, one: int, leader: int, found: Outcomes) -> bool:
-        _, both = found.common(one, leader)
-        failures = found.failures([one, leader])
+    def _is_as_good(self, one: int, leader: int, outcomes: Outcomes) -> bool:
+        _, both = outcomes.common(one, leader)
+        failures = outcomes.failures([one, leader])
         if abs(failures[0] - failures[1]) >= NOTICEABLE_FAILURES or not both.any():
             return False
-        p = p_beyond_margin(found.values[one, both], found.values[leader, both], self.margin)
+        p = p_beyond_margin(outcomes.values[one, both], outcomes.values[leader, both], self.margin)
         return p <= self.looks.margin_level
 
 
-def leading(candidates: Sequence[int], found: Outcomes) -> int:
+def leading(candidates: Sequence[int], outcomes: Outcomes) -> int:
     """Return the candidate that a report would rank first: the best mean of those that do not fail noticeably more."""
-    failures = found.failures(candidates)
+    failures = outcomes.failures(candidates)
     reliable = [
         one for one, share in zip(candidates, failures, strict=True) if share < failures.min() + NOTICEABLE_FAILURES
     ]
-    return reliable[int(np.argmin(found.means(reliable)))]
+    return reliable[int(np.argmin(outcomes.means(reliable)))]
 
 
-def _tests(one: int, others: Sequence[int], found: Outcomes) -> list[tuple[int, Standing, OneSided]]:
+def _tests(one: int, others: Sequence[int], outcomes: Outcomes) -> list[tuple[int, Standing, OneSided]]:
     """Return the tests that a candidate is worse than each other one: failures first, then the metric.
 
     By the metric nothing loses against a candidate that fails noticeably more often.
     """
     tests = []
     for by in others:
-        counted, both = found.common(one, by)
-        tests.append((by, Standing.FAILS, fails_more(found.success[one, counted], found.success[by, counted])))
-        by_metric = is_larger(found.values[one, both], found.values[by, both])
-        mine, theirs = found.failures([one, by])
+        counted, both = outcomes.common(one, by)
+        tests.append((by, Standing.FAILS, fails_more(outcomes.success[one, counted], outcomes.success[by, counted])))
+        by_metric = is_larger(outcomes.values[one, both], outcomes.values[by, both])
+        mine, theirs = outcomes.failures([one, by])
         if theirs - mine >= NOTICEABLE_FAILURES:
             by_metric = attrs.evolve(by_metric, p=1.0)
         tests.append((by, Standing.WORSE, by_metric))

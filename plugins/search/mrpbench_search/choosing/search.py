@@ -21,7 +21,7 @@ class SettingRace:
 
     setting: Setting
     race: Race
-    found: Outcomes | None = None
+    outcomes: Outcomes | None = None
     """Outcomes at the last look."""
 
 
@@ -86,8 +86,8 @@ def run_races(
             return str(end)
         runs = read_runs([results])
         for each in going:
-            each.found = outcomes(each.setting, runs, rules.column, each.race.wanted[1])
-            each.race.judge(each.found)
+            each.outcomes = outcomes(each.setting, runs, rules.column, each.race.wanted[1])
+            each.race.judge(each.outcomes)
     return None
 
 

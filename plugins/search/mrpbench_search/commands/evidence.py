@@ -40,12 +40,12 @@ def run(arguments: argparse.Namespace) -> int:
         for file, study in zip(files, studies, strict=True):
             if study.errors:
                 raise InputErrors(*(InputError(error.message, file=file, hint=error.hint) for error in study.errors))
-        found = []
+        results = []
         for letter, study in zip("AB", studies, strict=False):
             folder = out / letter if arguments.second else out
             with searching(arguments, folder, []) as requests:
                 try:
-                    found.append(requests.results(study, study.runs))
+                    results.append(requests.results(study, study.runs))
                 except SearchEnded as end:
                     sys.stderr.write(f"{folder}: {end}\n")
                     return 1
@@ -53,7 +53,7 @@ def run(arguments: argparse.Namespace) -> int:
     if not arguments.second:
         sys.stderr.write(f"compare it by `mrpbench compare A {out} --metrics {judged} --markdown`\n")
         return 0
-    first, second = found
+    first, second = results
     comparisons = compare_folders(first, second, protocol.metrics, ()).comparisons
     parts = compare_folders(first, second, protocol.metrics, protocol.settings).comparisons
     if arguments.json:

@@ -54,13 +54,13 @@ class Search:
 
     def next(self, resolution: float) -> float | None:
         """The rate to try, or None at the end."""
-        verdicts = {rate: found.verdict for rate, found in self.tried.items()}
+        verdicts = {rate: estimate.verdict for rate, estimate in self.tried.items()}
         return None if self.fault else next_rate(verdicts, self.first, resolution)
 
     @property
     def interval(self) -> tuple[float | None, float | None]:
         """The interval of the saturation rate."""
-        return saturation({rate: found.verdict for rate, found in self.tried.items()})
+        return saturation({rate: estimate.verdict for rate, estimate in self.tried.items()})
 
     def judge(self, rate: float, records: Sequence[Mapping[str, Any]]) -> None:
         """Add the growth that the records of a rate show; seeds are the sample."""
@@ -78,9 +78,16 @@ class Search:
 
     def row(self, rate: float) -> list[str]:
         """What was found at a rate."""
-        found = self.tried[rate]
+        estimate = self.tried[rate]
         failed = f"{self.failed[rate]} failed" if self.failed[rate] else ""
-        return [f"{rate:.4g}", f"{found.mean:.3f}", f"{found.low:.3f}", f"{found.high:.3f}", found.verdict, failed]
+        return [
+            f"{rate:.4g}",
+            f"{estimate.mean:.3f}",
+            f"{estimate.low:.3f}",
+            f"{estimate.high:.3f}",
+            estimate.verdict,
+            failed,
+        ]
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -150,11 +157,11 @@ def _searches(study: StudyRuns, option: str) -> dict[str, Search]:
     points: dict[str, list[StudyRun]] = defaultdict(list)
     for point in study.runs:
         points[_key(point, option)].append(point)
-    for found in points.values():
-        if len(seeds_of(found)) < 2:
+    for repeats in points.values():
+        if len(seeds_of(repeats)) < 2:
             raise InputError("seed: a rate is judged by two seeds or more", hint="e.g. seed=0..4")
     labels = map(name_axes, find_axes([json.loads(key) for key in points]))
-    starts = (float(found[0].canonical["tasks"][option]) for found in points.values())
+    starts = (float(repeats[0].canonical["tasks"][option]) for repeats in points.values())
     return {
         key: Search(label or study.name, start if option == "rate" else 1 / start)
         for key, label, start in zip(points, labels, starts, strict=True)
@@ -187,9 +194,9 @@ def _try(
         for point in study.runs:
             if (key := _key(point, option)) in keys:
                 chosen[rate, key].append(point)
-    results = requests.results(study, [point for found in chosen.values() for point in found])
-    for (rate, key), found in chosen.items():
-        searches[key].judge(rate, [results[point.run_id] for point in found])
+    results = requests.results(study, [point for points in chosen.values() for point in points])
+    for (rate, key), points in chosen.items():
+        searches[key].judge(rate, [results[point.run_id] for point in points])
 
 
 def _print(searches: Sequence[Search], unit: str, out: Path, end: str | None, as_json: bool) -> None:
@@ -197,8 +204,8 @@ def _print(searches: Sequence[Search], unit: str, out: Path, end: str | None, as
         rows = [attrs.asdict(search) | {"interval": search.interval} for search in searches]
         for row, search in zip(rows, searches, strict=True):
             row["tried"] = [
-                {"rate": rate, **attrs.asdict(found), "verdict": found.verdict, "failed": search.failed[rate]}
-                for rate, found in search.tried.items()
+                {"rate": rate, **attrs.asdict(estimate), "verdict": estimate.verdict, "failed": search.failed[rate]}
+                for rate, estimate in search.tried.items()
             ]
             del row["failed"]
         print_json({"unit": unit, "tolerance": TOLERANCE, "out": str(out), "ended": end, "combinations": rows})

@@ -58,8 +58,8 @@ def saturation(verdicts: Mapping[float, Verdict]) -> tuple[float | None, float |
     The upper end is the lowest rate at which queues are shown to grow. The lower end is the highest rate below it at
     which they are shown to be bounded.
     """
-    high = min((rate for rate, found in verdicts.items() if found is Verdict.GROWS), default=None)
-    below = (rate for rate, found in verdicts.items() if found is Verdict.BOUNDED and (high is None or rate < high))
+    high = min((rate for rate, verdict in verdicts.items() if verdict is Verdict.GROWS), default=None)
+    below = (rate for rate, verdict in verdicts.items() if verdict is Verdict.BOUNDED and (high is None or rate < high))
     return max(below, default=None), high
 
 

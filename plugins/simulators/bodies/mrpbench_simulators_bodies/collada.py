@@ -49,7 +49,7 @@ class _Reader:
         return np.concatenate(points)
 
     def _corners(self, geometry: ET.Element) -> Float:
-        found = [np.empty((0, 3))]
+        parts = [np.empty((0, 3))]
         for primitive in (it for tag in _PRIMITIVES for it in geometry.iterfind(f"mesh/{tag}")):
             inputs = primitive.findall("input")
             stride = 1 + max((self._offset(entry) for entry in inputs), default=0)
@@ -59,8 +59,8 @@ class _Reader:
                     index = _numbers(self._mesh, indices.text)[self._offset(vertex) :: stride]
                     if len(index) and not (index.min() >= 0 and index.max() < len(positions)):
                         raise InputError(f"a face has a corner beyond its {len(positions)} points", file=self._mesh)
-                    found.append(positions[index.astype(int)])
-        return np.concatenate(found)
+                    parts.append(positions[index.astype(int)])
+        return np.concatenate(parts)
 
     def _positions(self, vertices: ET.Element) -> Float:
         for entry in vertices.iterfind("input[@semantic='POSITION']"):

@@ -31,12 +31,12 @@ def leaves_of(facilities: Facilities, state: Mapping[str, float]) -> tuple[Leaf,
 
 def leaf_poses(facilities: Facilities, layout: LevelLayout, state: Mapping[str, float]) -> Float:
     """Poses f8[k,3] in the plane of the middle of each leaf."""
-    found = [np.empty((0, 3))]
+    poses = [np.empty((0, 3))]
     for _, level, lines in _parts(facilities, state):
         ends = layout.to_plane(lines.reshape(-1, 2), np.full(2 * len(lines), level, np.int16)).reshape(-1, 2, 2)
         along = ends[:, 1] - ends[:, 0]
-        found.append(np.column_stack([ends.mean(axis=1), np.arctan2(along[:, 1], along[:, 0])]))
-    return np.concatenate(found)
+        poses.append(np.column_stack([ends.mean(axis=1), np.arctan2(along[:, 1], along[:, 0])]))
+    return np.concatenate(poses)
 
 
 def _parts(facilities: Facilities, state: Mapping[str, float]) -> Iterator[tuple[OperatedDoor, int, Float]]:

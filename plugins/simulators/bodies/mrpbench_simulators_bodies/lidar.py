@@ -42,11 +42,11 @@ class Casters:
 
 def outlines(bodies: Sequence[RobotBody], height: float) -> list[Float]:
     """The outline f8[S,4] of each body at a height."""
-    found: dict[int, Float] = {}
+    outline_of: dict[int, Float] = {}
     for body in bodies:
-        if id(body) not in found:
-            found[id(body)] = outline_at(body, height)
-    return [found[id(body)] for body in bodies]
+        if id(body) not in outline_of:
+            outline_of[id(body)] = outline_at(body, height)
+    return [outline_of[id(body)] for body in bodies]
 
 
 def _flat(sides: Sequence[Float]) -> tuple[Float, np.ndarray[tuple[int], np.dtype[np.int32]]]:

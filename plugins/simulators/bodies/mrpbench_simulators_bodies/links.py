@@ -52,8 +52,8 @@ def check_links(description: ET.Element, wheels: Collection[str], file: Path) ->
 
 def _check_shape(shape: ET.Element | None, owner: str, file: Path) -> None:
     if shape is None or shape.tag not in SHAPES:
-        found = "no shape" if shape is None else f"the shape {shape.tag!r}"
-        raise InputError(f"a collision {owner} has {found}", file=file, hint=f"shapes: {', '.join(SHAPES)}")
+        described = "no shape" if shape is None else f"the shape {shape.tag!r}"
+        raise InputError(f"a collision {owner} has {described}", file=file, hint=f"shapes: {', '.join(SHAPES)}")
     for name, count in SHAPES[shape.tag].items():
         if numbers(shape, name, (0.0,) * count, file).min() <= 0:
             raise InputError(f"the {name} of a {shape.tag} {owner} is not positive", file=file)

@@ -45,14 +45,14 @@ def raster_rectangles(occupancy: Occupancy) -> list[Float]:
     """Rectangles f8[4,2] over the blocked cells, those of equal rows joined, and round the raster's edge."""
     rows, columns = occupancy.shape
     open_runs: dict[tuple[int, int], int] = {}
-    found = []
+    rectangles = []
     by_row: dict[int, set[tuple[int, int]]] = {}
     for first, row, last, _ in _runs(occupancy):
         by_row.setdefault(row, set()).add((first, last))
     for row in range(rows + 1):
         here = by_row.get(row, set())
         for run in [run for run in open_runs if run not in here]:
-            found += [_rectangle(occupancy, run[0], open_runs.pop(run), run[1], row)]
+            rectangles += [_rectangle(occupancy, run[0], open_runs.pop(run), run[1], row)]
         for run in here:
             open_runs.setdefault(run, row)
     margin = max(1, round(_FRAME / occupancy.cell_size))
@@ -62,8 +62,8 @@ def raster_rectangles(occupancy: Occupancy) -> list[Float]:
         (-margin, 0, 0, rows),
         (columns, 0, columns + margin, rows),
     ):
-        found.append(_rectangle(occupancy, left, low, right, high))
-    return found
+        rectangles.append(_rectangle(occupancy, left, low, right, high))
+    return rectangles
 
 
 def _runs(occupancy: Occupancy) -> list[tuple[int, int, int, int]]:

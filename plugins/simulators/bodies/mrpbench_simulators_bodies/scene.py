@@ -51,15 +51,15 @@ class Scene:
     @cached_property
     def solids(self) -> list[Float]:
         """The same as convex polygons f8[k,2], counter-clockwise, which may overlap."""
-        found: list[Float] = []
+        polygons_in_plane: list[Float] = []
         for index, level in enumerate(self.world.levels):
             polygons = [box[:, :2] for box in wall_boxes(level.walls, level.wall_thickness).reshape(-1, 4, 4)]
             for obstacle in level.obstacles:
                 polygons += convex_parts(np.asarray(obstacle.polygon))
             if level.occupancy is not None:
                 polygons += raster_rectangles(level.occupancy)
-            found += [self.layout.to_plane(it, np.full(len(it), index, np.int16)) for it in polygons]
-        return found
+            polygons_in_plane += [self.layout.to_plane(it, np.full(len(it), index, np.int16)) for it in polygons]
+        return polygons_in_plane
 
 
 def build_scene(

@@ -41,19 +41,19 @@ class MuJoCoEngine(Engine):
 
     def contacts(self) -> ContactForces:
         """Who touched in the last step, and how hard."""
-        found: dict[tuple[int, int], float] = {}
+        forces: dict[tuple[int, int], float] = {}
         contact = self._data.contact
         first_owner, second_owner = self._owner[contact.geom].T
         counts = (first_owner != FLOOR) & (second_owner != FLOOR)
         if not counts.any():
-            return found
+            return forces
         for row in counts.nonzero()[0].tolist():
             first, second = int(first_owner[row]), int(second_owner[row])
             pair = (second, first) if first < 0 or 0 <= second < first else (first, second)
             address = contact.efc_address[row]
             force = float(self._data.efc_force[address]) if address >= 0 else 0.0  # without friction: the normal force
-            found[pair] = found.get(pair, 0.0) + force
-        return found
+            forces[pair] = forces.get(pair, 0.0) + force
+        return forces
 
     def observe(self) -> tuple[Float, Float]:
         """Poses f8[n,3] of the floor below the middle of the axles, and twists f8[n,2]."""

@@ -96,6 +96,6 @@ def _hit(bullet: Bullet, points: Float, top: float) -> Bool:
     hits: list[bool] = []
     for first in range(0, len(points), _BATCH):
         part = slice(first, first + _BATCH)
-        found = bullet.rayTestBatch(start[part], end[part], collisionFilterMask=int(SEEN))
-        hits += [ray[0] >= 0 for ray in found]
+        rays = bullet.rayTestBatch(start[part], end[part], collisionFilterMask=int(SEEN))
+        hits += [ray[0] >= 0 for ray in rays]
     return np.array(hits, bool)

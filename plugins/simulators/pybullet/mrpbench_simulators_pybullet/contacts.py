@@ -32,14 +32,14 @@ class Contacts:
 
     def collect(self) -> ContactForces:
         """The contacts of the last physics step."""
-        found: dict[tuple[int, int], float] = {}
+        forces: dict[tuple[int, int], float] = {}
         for obstacle, other in self._obstacles:
             for point in self._bullet.getContactPoints(bodyA=obstacle):
                 if point[_DISTANCE] <= 0 or point[FORCE] > 0:
                     pair = (self._index[point[2]], other)
-                    found[pair] = found.get(pair, 0.0) + point[FORCE]
+                    forces[pair] = forces.get(pair, 0.0) + point[FORCE]
         for first, second in self._close:
             for point in self._bullet.getContactPoints(bodyA=self._robots[first], bodyB=self._robots[second]):
                 if point[_DISTANCE] <= 0 or point[FORCE] > 0:
-                    found[first, second] = found.get((first, second), 0.0) + point[FORCE]
-        return found
+                    forces[first, second] = forces.get((first, second), 0.0) + point[FORCE]
+        return forces

@@ -140,5 +140,5 @@ def _quaternion(turn: Float) -> list[float]:
             (zy - yz, xz - zx, yx - xy, xx + yy + zz),
         ]
     )
-    found: list[float] = np.linalg.eigh(matrix)[1][:, 3].tolist()
-    return found
+    quaternion: list[float] = np.linalg.eigh(matrix)[1][:, 3].tolist()
+    return quaternion

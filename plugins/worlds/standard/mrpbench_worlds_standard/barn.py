@@ -73,16 +73,16 @@ class Barn(WorldSource):
 
     def _rows(self, file: Path, columns: tuple[str, str]) -> Float:
         """The numbers f8[k,2] in two columns of the rows of this world."""
-        found = []
+        rows = []
         for line, row in read_rows(file, ("world", *columns)):
             try:
                 if int(row["world"]) == self.index:
-                    found.append([_finite(row[column]) for column in columns])
+                    rows.append([_finite(row[column]) for column in columns])
             except (TypeError, ValueError):
                 raise InputError("should hold numbers", file=file, line=line) from None
-        if not found:
+        if not rows:
             raise InputError(f"has no world {self.index}", file=file)
-        return np.array(found)
+        return np.array(rows)
 
 
 def field_world(name: str, cylinders: Float, length: float | None) -> World:
@@ -110,7 +110,7 @@ def read_cylinders(file: Path) -> Float:
     """
     text = read_unpacked(file).decode("utf-8", "replace")
     root = parse_xml(text, file, "an SDF file")
-    found = []
+    cylinders = []
     for model in root.findall("./world/model"):  # the element `state` repeats them
         name = model.get("name", "")
         if not name.startswith("unit_cylinder"):
@@ -123,10 +123,10 @@ def read_cylinders(file: Path) -> Float:
             raise InputError(f"the model {name!r} has no pose, or no radius of a cylinder", file=file) from None
         if radius <= 0:
             raise InputError(f"the model {name!r} has the radius {radius:g}", file=file)
-        found.append((x, y, radius))
-    if not found:
+        cylinders.append((x, y, radius))
+    if not cylinders:
         raise InputError("has no model unit_cylinder_N: a world of the BARN challenge?", file=file)
-    return np.array(found)
+    return np.array(cylinders)
 
 
 def path_length(cells: Float) -> float:

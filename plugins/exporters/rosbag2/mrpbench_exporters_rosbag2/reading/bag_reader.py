@@ -56,15 +56,15 @@ class BagReader:
                 if best:
                     begin = own.begin
                     if begin is None:
-                        begin = min(int(found.poses.stamps[0]) for found in best)
-                    tracks = tuple(found.track(begin) for found in best)
+                        begin = min(int(placed.poses.stamps[0]) for placed in best)
+                    tracks = tuple(placed.track(begin) for placed in best)
                     names = {track.robot for track in tracks}
                     clocks = {robot: series for (robot, _), series in collected.poses.items() if series.stamps}
                     anybody = next(series for series in collected.series if series.stamps)
                     believed = self._best(collected, span, bases, robots, ESTIMATES)
                     return Observed(
                         tracks=tracks,
-                        estimates=tuple(found.track(begin) for found in believed),
+                        estimates=tuple(placed.track(begin) for placed in believed),
                         signals=tuple(s for s in signals.placed(clocks, anybody, span, begin) if s.robot in names),
                         context=own.context,
                         channels=own.channels(),
@@ -115,13 +115,13 @@ class BagReader:
         """Poses of every robot by the first source that it has."""
         robots = {robot for robot, _ in collected.poses}
         robots |= {robot for tree, child in collected.frames if (robot := self._robot(tree, child, bases)) is not None}
-        found = []
+        best_of_robots = []
         for robot in sorted((robot for robot in robots if wanted(robot, chosen)), key=natural):
             for source in order:
                 if (best := self._poses(collected, span, bases, robot, source)) is not None:
-                    found.append(Placed(robot, source, *best))
+                    best_of_robots.append(Placed(robot, source, *best))
                     break
-        return found
+        return best_of_robots
 
     def _robot(self, tree: str, child: str, bases: tuple[str, ...]) -> str | None:
         if tree:

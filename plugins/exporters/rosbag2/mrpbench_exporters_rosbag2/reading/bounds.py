@@ -80,16 +80,16 @@ def inflate(data: bytes, largest: int = LARGEST) -> bytes:
         ReaderError: the content is larger than `largest` or `LARGEST`.
     """
     largest = _within(largest)
-    found = bytearray()
+    inflated = bytearray()
     while data:
         frame = _MCAP.zstd.ZstdDecompressor()
-        found += frame.decompress(data, largest + 1 - len(found))
-        if len(found) > largest:
+        inflated += frame.decompress(data, largest + 1 - len(inflated))
+        if len(inflated) > largest:
             raise ReaderError(f"more than {largest} bytes are compressed in one place")
         if not frame.eof:
             raise ReaderError("a compressed part ends early")
         data = frame.unused_data
-    return bytes(found)
+    return bytes(inflated)
 
 
 def _no_qos(_text: str) -> list[Any]:
@@ -99,10 +99,10 @@ def _no_qos(_text: str) -> list[Any]:
 
 def _lz4(data: bytes, largest: int) -> bytes:
     frame = LZ4FrameDecompressor()
-    found: bytes = frame.decompress(data, max_length=_within(largest) + 1)
-    if len(found) > largest:
+    inflated: bytes = frame.decompress(data, max_length=_within(largest) + 1)
+    if len(inflated) > largest:
         raise ReaderError(f"more than {largest} bytes are compressed in one place")
-    return found
+    return inflated
 
 
 def _within(size: int) -> int:

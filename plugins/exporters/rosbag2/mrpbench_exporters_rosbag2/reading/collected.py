@@ -93,23 +93,23 @@ class Patterns:
 
     def takers(self, topics: Mapping[str, str], into: Collected) -> dict[str, Take]:
         """Return the handler of each topic with poses; `topics` gives types by name."""
-        found: dict[str, Take] = {}
+        takers: dict[str, Take] = {}
         for topic, kind in topics.items():
             if kind in POSES:
                 for source, patterns in self.by_source.items():
                     if (robot := robot_in(topic, patterns)) is not None:
-                        found[topic] = into.of_pose(robot, source, topic)
+                        takers[topic] = into.of_pose(robot, source, topic)
                         break
             elif kind == FLEET and topic in self.fleet_states:
-                found[topic] = into.of_fleet(topic, self.fleet)
+                takers[topic] = into.of_fleet(topic, self.fleet)
             elif kind == TRANSFORMS:
                 static = topic.endswith("_static")
                 name = topic.removesuffix("_static")
                 if name == "/tf":
-                    found[topic] = into.of_transforms("", topic, static)
+                    takers[topic] = into.of_transforms("", topic, static)
                 elif (robot := robot_in(name, self.tf)) is not None:
-                    found[topic] = into.of_transforms(robot, topic, static)
-        return found
+                    takers[topic] = into.of_transforms(robot, topic, static)
+        return takers
 
 
 def nanoseconds(stamp: Any) -> int:

@@ -13,9 +13,9 @@ def robot_in(name: str, patterns: Iterable[str]) -> str | None:
     """Return the robot of a topic or frame, by the first pattern that matches."""
     for pattern in patterns:
         before, place, after = pattern.partition(PLACE)
-        found = re.fullmatch(re.escape(before) + (r"([^/]+)" if place else "") + re.escape(after), name)
-        if found:
-            return found[1] if place else LONE
+        match = re.fullmatch(re.escape(before) + (r"([^/]+)" if place else "") + re.escape(after), name)
+        if match:
+            return match[1] if place else LONE
     return None
 
 

@@ -67,15 +67,15 @@ class Own:
         if self.begin is None or self.context is None:
             return {}
         try:
-            found = self._channels(self.begin, self.context)
-            faults = [check_rows(name, rows, found[axis_of(name)], self.context) for name, rows in found.items()]
-            fault = next(filter(None, [self._damaged, *check_names(found), *faults]), None)
+            chunk = self._channels(self.begin, self.context)
+            faults = [check_rows(name, rows, chunk[axis_of(name)], self.context) for name, rows in chunk.items()]
+            fault = next(filter(None, [self._damaged, *check_names(chunk), *faults]), None)
         except (ValueError, TypeError, LookupError, OverflowError) as error:  # messages do not fit one another
             fault = one_line(error)
         if fault is not None:
             self.notes.append(f"the progress of the run is damaged ({fault}): read like a bag of any other fleet")
             return {}
-        return found
+        return chunk
 
     def _channels(self, begin: int, context: RunContext) -> Chunk:
         numbers = {name: index for index, name in enumerate((*context.fleet.names, *context.mover_names))}
@@ -84,13 +84,13 @@ class Own:
             return (np.array(self._rows[name], np.int64) - begin) / SECOND
 
         table = np.array(self._rows["progress"]).reshape(len(self._rows["time"]), -1, len(advance.CHANNELS))
-        found: dict[str, NDArray[Any]] = {"time": times("time")}
-        found |= {name: table[..., column].astype(KINDS[name]) for column, name in enumerate(advance.CHANNELS)}
+        chunk: dict[str, NDArray[Any]] = {"time": times("time")}
+        chunk |= {name: table[..., column].astype(KINDS[name]) for column, name in enumerate(advance.CHANNELS)}
         pairs = [[numbers.get(name, -1) for name in pair] for pair in self._rows["contact"]]
         new: list[Chunk] = self._rows["routes"]
-        found |= {name: np.concatenate([rows[name] for rows in new]) for name in (new[0] if new else ())}
+        chunk |= {name: np.concatenate([rows[name] for rows in new]) for name in (new[0] if new else ())}
         return {
-            **found,
+            **chunk,
             **self._sampled(),
             **self._scans(begin),
             **self._facilities(),
@@ -107,20 +107,20 @@ class Own:
         """Periodic channels of which every robot has a message at every sample."""
         assert self.context is not None
         said = self._signals.said | {(robot, "estimate"): rows for robot, rows in self._estimates.items()}
-        found: dict[str, NDArray[Any]] = {}
+        chunk: dict[str, NDArray[Any]] = {}
         for channel in ("truth", "odometry", "command", "estimate"):
             every = [said.get((name, channel)) for name in self.context.fleet.names]
             rows = [one.rows for one in every if one is not None and one.logged == self._rows["time"]]
             if len(rows) == len(every):
-                found[channel] = np.swapaxes(np.array(rows, float), 0, 1)
+                chunk[channel] = np.swapaxes(np.array(rows, float), 0, 1)
             elif any(every):
                 self.notes.append(f"not every robot has every sample of {channel}: it was not read")
         for channel in ("truth", "odometry", "estimate"):
-            if channel in found:  # a quaternion tells turns from turns and a half, not from double ones
-                found[channel][..., 2] = np.unwrap(found[channel][..., 2], period=4 * np.pi, axis=0)
-        if "truth" in found:
-            found["truth_twist"], found["truth"] = found["truth"][..., 3:], found["truth"][..., :3]
-        return found
+            if channel in chunk:  # a quaternion tells turns from turns and a half, not from double ones
+                chunk[channel][..., 2] = np.unwrap(chunk[channel][..., 2], period=4 * np.pi, axis=0)
+        if "truth" in chunk:
+            chunk["truth_twist"], chunk["truth"] = chunk["truth"][..., 3:], chunk["truth"][..., :3]
+        return chunk
 
     def _scans(self, begin: int) -> Chunk:
         assert self.context is not None

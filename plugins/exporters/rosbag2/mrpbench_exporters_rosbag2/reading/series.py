@@ -97,12 +97,12 @@ class Span:
 
 def longest_even_span(series: Iterable[Series]) -> Span:
     """Return the part between two jumps of the clock that has most poses."""
-    every = [found for found in series if found.stamps]
-    use_log = any(not any(found.stamps) for found in every)
-    jumps = sorted((jump, by, found.topic) for found in every for jump, by in found.jumps)
+    every = [one for one in series if one.stamps]
+    use_log = any(not any(one.stamps) for one in every)
+    jumps = sorted((jump, by, one.topic) for one in every for jump, by in one.jumps)
     if use_log or not jumps:
         return Span(use_log, -(2**63), 2**63 - 1)
-    logged = np.concatenate([np.array(found.logged, np.int64) for found in every])
+    logged = np.concatenate([np.array(one.logged, np.int64) for one in every])
     edges = np.unique([-(2**63), *(jump for jump, _, _ in jumps), 2**63 - 1])
     counts = np.diff(np.searchsorted(np.sort(logged), edges))
     best = int(np.argmax(counts))

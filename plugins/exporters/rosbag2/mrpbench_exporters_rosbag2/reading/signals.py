@@ -37,15 +37,15 @@ class Signals:
 
     def takers(self, topics: Mapping[str, str]) -> dict[str, Take]:
         """Return the handler of each topic; `topics` gives types by name."""
-        found = {}
+        takers = {}
         for topic, kind in topics.items():
             for channel, patterns in self.patterns.items():
                 read = READ[channel].get(kind)
                 robot = robot_in(topic, patterns)
                 if read is not None and robot is not None and (robot, channel) not in self.said:
                     self.said[robot, channel] = Said(topic)
-                    found[topic] = _taking(self.said[robot, channel], read)
-        return found
+                    takers[topic] = _taking(self.said[robot, channel], read)
+        return takers
 
     def placed(self, clocks: Mapping[str, Series], anybody: Series, span: Span, begin: int) -> Iterator[Signal]:
         """Signals with times since `begin` (nanoseconds).

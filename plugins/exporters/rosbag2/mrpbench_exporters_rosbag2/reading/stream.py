@@ -53,12 +53,16 @@ class Stream:
     @property
     def topics(self) -> dict[str, str]:
         """Message type (`nav_msgs/msg/Odometry`) of each topic that has messages."""
-        return {found.topic: found.msgtype for found in self._connections() if found.msgcount}
+        return {connection.topic: connection.msgtype for connection in self._connections() if connection.msgcount}
 
     def messages(self, topics: Collection[str]) -> Iterator[tuple[str, int, Any]]:
         """Yield topic, log time (nanoseconds) and message; `notes` says what cannot be read."""
         for reader in self.readers:
-            wanted = [found for found in reader.connections if found.topic in topics and self._definition(found)]
+            wanted = [
+                candidate
+                for candidate in reader.connections
+                if candidate.topic in topics and self._definition(candidate)
+            ]
             count = 0
             try:
                 for connection, stamp, data in reader.messages(wanted) if wanted else ():

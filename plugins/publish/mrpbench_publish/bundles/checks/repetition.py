@@ -72,14 +72,14 @@ def _differences(stored: Stored, again: Mapping[str, Any]) -> Iterator[str]:
             yield f"has the status {record['status']}, here {again['status']}"
         return
     for key in _COMPARED if same_platform(stored) else ("scenario_id", "plan"):
-        claimed, found = record.get(key) or {}, again.get(key) or {}
-        if claimed == found:
+        claimed, repeated = record.get(key) or {}, again.get(key) or {}
+        if claimed == repeated:
             continue
         if key == "metrics":
-            names = sorted(name for name in {*claimed, *found} if claimed.get(name) != found.get(name))
+            names = sorted(name for name in {*claimed, *repeated} if claimed.get(name) != repeated.get(name))
             yield from (f"{name} differs when the run is repeated" for name in names)
         else:
-            yield f"its {key} differs when the run is repeated" + (f": here {found}" if key == "status" else "")
+            yield f"its {key} differs when the run is repeated" + (f": here {repeated}" if key == "status" else "")
     mine = next((line[:64] for line in again["provenance"]["files"] if "  recordings/" in line), None)
     if same_platform(stored) and stored.recording != mine:
         yield "its recording differs when the run is repeated"
@@ -90,7 +90,7 @@ def _clock_differences(stored: Stored, again: Mapping[str, Any]) -> Iterator[str
     if stored.record.get("scenario_id") != again.get("scenario_id"):
         yield "its scenario_id differs when the run is repeated"
     here = again.get("timing") or {}
-    found = stored.block("limits").get("planning")
-    limit = found if isinstance(found, int | float) else 0.0
+    seconds = stored.block("limits").get("planning")
+    limit = seconds if isinstance(seconds, int | float) else 0.0
     if not here.get("clock_bound") and here.get("planning_s", limit) < _EARLY * limit:
         yield "says that the clock ended its planning, which ends by itself here, long before the limit"

@@ -42,9 +42,9 @@ def read_studies(bundle: Opened, slots: str, *, trusted: bool) -> Asked:
         key = repr(invocation)
         if key not in known:
             known[key] = _read(bundle, invocation, slots, trusted)
-        found = known[key]
-        if isinstance(found, Expected):
-            by_name[name] = found
+        expected = known[key]
+        if isinstance(expected, Expected):
+            by_name[name] = expected
     return Asked(by_name=by_name, faults=tuple(dict.fromkeys(it for it in known.values() if isinstance(it, str))))
 
 
@@ -109,5 +109,5 @@ _LOCAL_ONLY = "every run of the study needs local plugins, which are not execute
 
 
 def _first(texts: Iterable[str]) -> str:
-    found = list(dict.fromkeys(texts))
-    return "; ".join(found[:3]) + ("; …" if len(found) > 3 else "")
+    distinct = list(dict.fromkeys(texts))
+    return "; ".join(distinct[:3]) + ("; …" if len(distinct) > 3 else "")

@@ -32,10 +32,10 @@ def read_crowd_sim(
     if top is None or not top.fields() or not top.fields().get("enable", top).value:
         return (), ()
     states = {state.fields()["name"].text(): state for state in _with(top, "states", "name")}
-    found = _places(drawings)
+    places_of_group = _places(drawings)
     sets = {
         entry.fields()["set_id"].integer(): [
-            place for area in entry.section("set_area") for place in found.get(area.text(), [])
+            place for area in entry.section("set_area") for place in places_of_group.get(area.text(), [])
         ]
         for entry in _with(top, "goal_sets", "set_id")
     }
@@ -71,14 +71,14 @@ def read_crowd_sim(
 
 def _places(drawings: Sequence[LevelDrawing]) -> dict[str, _Places]:
     """The places of each goal set."""
-    found: dict[str, _Places] = defaultdict(list)
+    places: dict[str, _Places] = defaultdict(list)
     for level, drawing in enumerate(drawings):
         for node, (x, y) in zip(drawing.node.section("vertices"), drawing.positions.tolist(), strict=True):
             items = node.items()
             pair = items[4].fields().get("human_goal_set_name") if len(items) > 4 else None
             if pair is not None:
-                found[pair.items()[1].text()].append((x, y, level))
-    return found
+                places[pair.items()[1].text()].append((x, y, level))
+    return places
 
 
 def _ended(activity: Activity, node: Node, states: dict[str, Node], index: dict[str, int], notes: Notes) -> Activity:
@@ -170,11 +170,11 @@ def _level(activities: Sequence[Activity], first: int) -> int:
 
 def _with(node: Node, section: str, key: str) -> list[Node]:
     """The mappings of a section, each of which has this key."""
-    found = node.section(section)
-    for entry in found:
+    entries = node.section(section)
+    for entry in entries:
         if key not in entry.fields():
             raise entry.error(f"an entry of {section} has no {key}")
-    return found
+    return entries
 
 
 def _check_state(node: Node, states: dict[str, Node]) -> None:

@@ -27,7 +27,7 @@ def read_models(
     level: Node, frame: Frame, footprints: Footprints, lanes: NamedLanes, clearance: float, notes: Notes
 ) -> tuple[Obstacle, ...]:
     """Return the obstacles of a level; an estimated footprint within `clearance` of a lane is left out."""
-    found: list[tuple[str, Obstacle]] = []
+    models: list[tuple[str, Obstacle]] = []
     for node in level.section("models"):
         fields = node.fields()
         for key in fields:
@@ -44,8 +44,8 @@ def read_models(
         elif _number(fields, "z") - footprint.origin > OUT_OF_REACH:
             notes.add(f"model {model!r} is higher than {OUT_OF_REACH} m above the floor and is not an obstacle")
         else:
-            found.append((model, _obstacle(fields, frame, footprint)))
-    return _off_lanes(found, lanes, clearance, notes)
+            models.append((model, _obstacle(fields, frame, footprint)))
+    return _off_lanes(models, lanes, clearance, notes)
 
 
 def _obstacle(fields: dict[str, Node], frame: Frame, footprint: Footprint) -> Obstacle:
@@ -66,14 +66,14 @@ def _number(fields: dict[str, Node], key: str) -> float:
 
 
 def _off_lanes(
-    found: list[tuple[str, Obstacle]], lanes: NamedLanes, clearance: float, notes: Notes
+    models: list[tuple[str, Obstacle]], lanes: NamedLanes, clearance: float, notes: Notes
 ) -> tuple[Obstacle, ...]:
     if not lanes:
-        return tuple(obstacle for _, obstacle in found)
+        return tuple(obstacle for _, obstacle in models)
     start, end = np.array([ends[0] for _, ends in lanes]), np.array([ends[1] for _, ends in lanes])
     kept = []
     blocked: dict[str, list[str]] = defaultdict(list)
-    for model, obstacle in found:
+    for model, obstacle in models:
         clear = has_clearance(Level(name="", obstacles=(obstacle,)), start, end, clearance)
         if clear.all() or not obstacle.estimated:
             kept.append(obstacle)
