@@ -11,7 +11,7 @@ import shutil
 import statistics
 import tempfile
 import time
-from pathlib import Path as File
+from pathlib import RobotPath as File
 
 import numpy as np
 import psutil
@@ -21,7 +21,7 @@ from selenium import webdriver
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.route import Route
-from mrpbench_core.model.planning.plan import Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import Plan, PlanResult, PlanStatus, RobotPath
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario, Task
@@ -84,7 +84,7 @@ def write_run(robots: int, file: File) -> None:
         problem=problem,
         result=PlanResult(
             status=PlanStatus.SOLVED,
-            plan=Plan(paths=tuple(Path(edge=row, enter=steps, leave=steps + 1) for row in chosen)),
+            plan=Plan(paths=tuple(RobotPath(edge=row, enter=steps, leave=steps + 1) for row in chosen)),
         ),
         routes=routes,
         goal=tuple((*position[place], float("nan")) for place in at[:, -1]),

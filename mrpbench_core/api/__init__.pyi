@@ -19,7 +19,8 @@ from mrpbench_core.model.planning.problem import (
 from mrpbench_core.model.planning.plan import (
     AnytimePoint as AnytimePoint,
     Budget as Budget,
-    Path as Path,
+    Path as Path,  # the former name of RobotPath
+    RobotPath as RobotPath,
     Paths as Paths,
     Plan as Plan,
     PlanResult as PlanResult,

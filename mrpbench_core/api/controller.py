@@ -66,8 +66,8 @@ class FleetControllerSession:
         """Return forward speed (m/s) and turn rate (rad/s) f8[k,2] of all rows; NaN = no command is admissible."""
         for batch in observations.scans:
             for row, robot in enumerate(batch.robot.tolist()):
-                own = slice(row, row + 1)
-                self._scans[robot] = ScanBatch(stamp=batch.stamp, robot=batch.robot[own], ranges=batch.ranges[own])
+                rows = slice(row, row + 1)
+                self._scans[robot] = ScanBatch(stamp=batch.stamp, robot=batch.robot[rows], ranges=batch.ranges[rows])
         twist = np.full((len(observations.robot), 2), np.nan)
         for row, robot in enumerate(observations.robot.tolist()):
             command = self.sessions[robot].command(observations.of(row, self._scans.pop(robot, None)))

@@ -28,7 +28,7 @@ class CrowdSession(ABC):
         """Where the members are now; before the first step, where they begin."""
 
     @abstractmethod
-    def step(self, dt: float, seen: CrowdView) -> Movers:
+    def step(self, dt: float, view: CrowdView) -> Movers:
         """Move for `dt` simulated seconds; nothing but the crowd itself keeps its members out of walls and robots.
 
         Crowds move in turn, in the order of the configuration: those before this one have moved already, so that nobody
@@ -47,14 +47,14 @@ class Crowd(Component):
     group: ClassVar[str] = "mrpbench.crowds"
 
     @abstractmethod
-    def start(self, world: World, fleet: Fleet, seed: int, seen: CrowdView) -> CrowdSession:
+    def start(self, world: World, fleet: Fleet, seed: int, view: CrowdView) -> CrowdSession:
         """Place the movers.
 
         Args:
             world: where they move.
             fleet: the robots, whose radii they need to avoid them.
             seed: of everything random; what a member does at random depends on the seed and its index alone.
-            seen: the robots at rest where they begin, and the movers of the crowds before this one.
+            view: the robots at rest where they begin, and the movers of the crowds before this one.
 
         Raises:
             InputError: the world has no room for them, or a place that an option names is not free.

@@ -65,7 +65,7 @@ Declare = Callable[[D], tuple[Any, Any]]
 """Returns the type and the attrs field of an option."""
 
 
-def kind_of(described: DescribedOption) -> Any:
+def option_type(described: DescribedOption) -> Any:
     """Return the Python type of the values of an option, without None."""
     return Literal[tuple(described.choices)] if described.choices else _TYPES[described.type]
 
@@ -86,7 +86,7 @@ def validator_of(described: DescribedOption) -> Any:
 
 def as_option(described: DescribedOption) -> tuple[Any, Any]:
     """Return the type and the field of an option of a component."""
-    kind, validator = kind_of(described), validator_of(described)
+    kind, validator = option_type(described), validator_of(described)
     if described.optional:
         kind, validator = kind | None, validator and attrs.validators.optional(validator)
     paper = f" ({described.paper})" if described.paper else ""

@@ -57,14 +57,15 @@ class BatchSession(ABC):
     """Releases one plan in d executions, all of which go on by the same clock."""
 
     @abstractmethod
-    def update(self, now: float, seen: Int) -> BatchOrders:
+    def update(self, now: float, progress: Int) -> BatchOrders:
         """Return for each execution what `DispatcherSession.update` would return.
 
         Called every control period.
 
         Args:
             now: simulated seconds.
-            seen: i8[2,d,n] number of leading segments that each robot has reached, and has cleared; see `FleetView`.
+            progress: i8[2,d,n] number of leading segments that each robot has reached, and has cleared; see
+                `FleetView`.
         """
 
 

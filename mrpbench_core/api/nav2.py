@@ -6,7 +6,7 @@ from typing import Any, Literal, get_args, get_origin
 import attrs
 
 from mrpbench_core.api.component import bounded
-from mrpbench_core.api.described import DescribedOption, kind_of, validator_of
+from mrpbench_core.api.described import DescribedOption, option_type, validator_of
 from mrpbench_core.files.nav2 import OF_EVERY_NODE, Nav2Block
 from mrpbench_core.files.nav2_file import Nav2File
 
@@ -28,7 +28,7 @@ _OF_SERVER = (
 def parameter(default: Any, *, help: str, unit: str | None = None, validator: Callable[..., Any] | None = None) -> Any:
     """Declare an option, typed `... | None`, that is None unless the configuration sets it.
 
-    If it is None, `settle` takes the value from the Nav2 parameter file, or else `default`.
+    If it is None, `resolve_options` takes the value from the Nav2 parameter file, or else `default`.
     """
     shown = (
         "" if default is None else f" (default {default:g})" if isinstance(default, float) else f" (default {default})"
@@ -48,10 +48,10 @@ def as_parameter(described: DescribedOption, *, unset: bool = False) -> tuple[An
         unit=described.unit or None,
         validator=validator_of(described),
     )
-    return kind_of(described) | None, field
+    return option_type(described) | None, field
 
 
-def settle(options: Any, block: Nav2Block | None = None, of: type[Any] | None = None) -> dict[str, Any]:
+def resolve_options(options: Any, block: Nav2Block | None = None, of: type[Any] | None = None) -> dict[str, Any]:
     """Return the values of all options declared with `parameter` in an attrs instance, by name.
 
     Args:
@@ -77,14 +77,14 @@ def read_option(options: Any, name: str, block: Nav2Block | None, key: str | Non
         InputError: the value in the block has the wrong type, or the validator of the option refuses it.
     """
     field = getattr(attrs.fields(type(options)), name)
-    value = None if block is None else block.take(key or name, _kind(field.type))
+    value = None if block is None else block.take(key or name, _nav2_type(field.type))
     if block is not None:
         check_parameter(field, value, block, key or name)
-    given = getattr(options, name)
-    return value if given is None else given
+    option = getattr(options, name)
+    return value if option is None else option
 
 
-def _kind(declared: Any) -> type:
+def _nav2_type(declared: Any) -> type:
     """Return the type that an option declared as `... | None` has in a file."""
     kind = next(kind for kind in get_args(declared) if kind is not type(None))
     origin = get_origin(kind)
@@ -132,6 +132,8 @@ def not_used(*blocks: Nav2Block | None) -> tuple[str, ...]:
     for block in filter(None, blocks):
         unused = block.unused()
         place = ": ".join(filter(None, (str(block.document.file) if block.document else "", block.title)))
-        own, inner = [name for name in unused if "." not in name], [name for name in unused if "." in name]
-        notes += [f"{place}: not used here: {', '.join(names)}".removeprefix(": ") for names in (own, inner) if names]
+        direct, inner = [name for name in unused if "." not in name], [name for name in unused if "." in name]
+        notes += [
+            f"{place}: not used here: {', '.join(names)}".removeprefix(": ") for names in (direct, inner) if names
+        ]
     return tuple(notes)

@@ -63,10 +63,10 @@ def check_queues(problem: QueueProblem, queues: Any) -> str | None:
         for task in queue:
             if not isinstance(task, int | np.integer) or not 0 <= task < len(problem.tasks):
                 return f"gave robot {robot} task {task!s:.60}, which does not exist"
-    given = np.array([*chain.from_iterable(queues)], np.int64)
-    if len(again := np.flatnonzero(np.bincount(given) > 1)):
+    tasks = np.array([*chain.from_iterable(queues)], np.int64)
+    if len(again := np.flatnonzero(np.bincount(tasks) > 1)):
         return f"gave task {again[0]} twice"
     robots = np.repeat(np.arange(len(queues)), [len(queue) for queue in queues])
-    if len(unable := np.flatnonzero(~np.isfinite(problem.approach[robots, given]))):
-        return f"gave task {given[unable[0]]} to robot {robots[unable[0]]}, which cannot do it"
+    if len(unable := np.flatnonzero(~np.isfinite(problem.approach[robots, tasks]))):
+        return f"gave task {tasks[unable[0]]} to robot {robots[unable[0]]}, which cannot do it"
     return None

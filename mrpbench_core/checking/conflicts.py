@@ -169,11 +169,11 @@ def _footprints(problem: Problem, occupations: list[Occupation]) -> Iterator[Con
     moving = tail != head
     position, level = problem.roadmap.position, problem.roadmap.level
     for one, other in _together(begin, end):
-        kept = robot[one] != robot[other]
+        conflicting = robot[one] != robot[other]
         # Two standing robots conflict at a single tick too; a moving robot only while both intervals overlap.
-        kept &= ~(moving[one] | moving[other]) | ((begin[one] < end[other]) & (begin[other] < end[one]))
-        kept &= moving[one] | moving[other] | (tail[one] != tail[other])  # rule 1 covers it
-        one, other = one[kept], other[kept]
+        conflicting &= ~(moving[one] | moving[other]) | ((begin[one] < end[other]) & (begin[other] < end[one]))
+        conflicting &= moving[one] | moving[other] | (tail[one] != tail[other])  # rule 1 covers it
+        one, other = one[conflicting], other[conflicting]
         levels = [level[ends[pair]] for pair in (one, other) for ends in (tail, head)]
         shared = (
             (levels[0] == levels[2]) | (levels[0] == levels[3]) | (levels[1] == levels[2]) | (levels[1] == levels[3])

@@ -12,7 +12,7 @@ from mrpbench_core.checking.recording import LARGEST, check_channel
 from mrpbench_core.checking.tasks import task_fault
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Mode
-from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.planning.plan import RobotPath
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario
@@ -224,7 +224,7 @@ def _durations(roadmap: Roadmap) -> Iterator[str]:
         yield "roadmap.duration has moves that take no time"
 
 
-def _path(name: str, path: Path, edges: int) -> Iterator[str]:
+def _path(name: str, path: RobotPath, edges: int) -> Iterator[str]:
     if path.edge.ndim != 1 or not path.edge.shape == path.enter.shape == path.leave.shape:
         yield f"{name}: a path has different numbers of edges and ticks"
         return

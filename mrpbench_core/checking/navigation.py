@@ -51,11 +51,11 @@ def vertices_on_lanes(world: World) -> list[tuple[int, Pair]]:
     point, level = _positions(world)
     of = graphs(world)
     overlaps = []
-    for (a, b), own in sorted(_graphs_of_edges(world).items()):
+    for (a, b), graphs_of_edge in sorted(_graphs_of_edges(world).items()):
         near = (point_segment_distance(point, point[a], point[b]) < TOLERANCE) & (level == level[a])
         ends = np.minimum(np.hypot(*(point - point[a]).T), np.hypot(*(point - point[b]).T))
         inside = np.flatnonzero(near & (ends >= TOLERANCE)).tolist()
-        overlaps += [(vertex, (a, b)) for vertex in inside if not of[vertex] or of[vertex] & own]
+        overlaps += [(vertex, (a, b)) for vertex in inside if not of[vertex] or of[vertex] & graphs_of_edge]
     return overlaps
 
 

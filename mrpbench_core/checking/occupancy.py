@@ -39,10 +39,10 @@ def rasterise(
     Raises:
         InputError: the raster would have more than `LIMIT` cells.
     """
-    own = level.occupancy
+    occupancy = level.occupancy
     outlines = solids(level)
-    if own is not None and not outlines and cell_size == own.cell_size and origin is None and shape is None:
-        return own
+    if occupancy is not None and not outlines and cell_size == occupancy.cell_size and origin is None and shape is None:
+        return occupancy
     low, high = bounds(level)
     origin = (float(low[0]), float(low[1])) if origin is None else origin
     if shape is None:
@@ -51,7 +51,7 @@ def rasterise(
     if shape[0] * shape[1] > LIMIT:
         raise InputError(f"a raster of {shape[0]} × {shape[1]} cells is too large", hint="choose larger cells")
     blank = Occupancy(blocked=np.zeros(shape, bool), cell_size=cell_size, origin=origin)
-    blocked = blank.blocked.copy() if own is None else _resampled(own, blank, rule)
+    blocked = blank.blocked.copy() if occupancy is None else _resampled(occupancy, blank, rule)
     for outline in outlines:
         first, last = _reach(blank, outline)
         rows, columns = np.arange(first[0], last[0]), np.arange(first[1], last[1])
@@ -99,23 +99,23 @@ def _crosses(outline: Float, centres: Float, half: float) -> Bool:
     return meets
 
 
-def _resampled(own: Occupancy, raster: Occupancy, rule: str) -> Bool:
+def _resampled(source: Occupancy, raster: Occupancy, rule: str) -> Bool:
     """The level's own raster on the cells of another; beyond its edge it is solid."""
-    solid = np.ones((own.shape[0] + 2, own.shape[1] + 2), bool)
-    solid[1:-1, 1:-1] = own.blocked
+    solid = np.ones((source.shape[0] + 2, source.shape[1] + 2), bool)
+    solid[1:-1, 1:-1] = source.blocked
     # rows and columns of `own` below each line of cells, and how many of its cells are blocked up to there
     total = np.zeros((solid.shape[0] + 1, solid.shape[1] + 1), np.int64)
     total[1:, 1:] = solid.cumsum(axis=0).cumsum(axis=1)
     spans = []
     for axis, cells in ((1, raster.shape[0]), (0, raster.shape[1])):
-        low = (raster.origin[axis] - own.origin[axis] + np.arange(cells) * raster.cell_size) / own.cell_size
-        width = raster.cell_size / own.cell_size
+        low = (raster.origin[axis] - source.origin[axis] + np.arange(cells) * raster.cell_size) / source.cell_size
+        width = raster.cell_size / source.cell_size
         if rule == "centre":
             first = np.floor(low + width / 2)
             last = first + 1
         else:
             first, last = np.floor(low + 1e-6), np.ceil(low + width - 1e-6)
-        size = own.shape[1 - axis]
+        size = source.shape[1 - axis]
         spans.append((np.clip(first, -1, size).astype(int) + 1, np.clip(last, 0, size + 1).astype(int) + 1))
     (bottom, top), (left, right) = spans
     count = (

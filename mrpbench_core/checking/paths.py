@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Int
-from mrpbench_core.model.planning.plan import Path, Paths
+from mrpbench_core.model.planning.plan import Paths, RobotPath
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.visits import visited_goals
 
@@ -42,19 +42,19 @@ class Segments(NamedTuple):
         return np.append(True, ~self.follows)[: len(self.robot)]
 
 
-def segments_of(paths: Sequence[Path]) -> Segments:
+def segments_of(paths: Sequence[RobotPath]) -> Segments:
     """List the segments of paths that have as many edges as times."""
     joined = Paths.of(paths)
     return Segments(joined.robot, joined.segment, joined.edge.astype(np.int64), joined.enter, joined.leave)
 
 
-def path_faults(problem: Problem, paths: Sequence[Path]) -> dict[int, str]:
+def path_faults(problem: Problem, paths: Sequence[RobotPath]) -> dict[int, str]:
     """Return the first fault of each path that has one, by robot."""
     faults: dict[int, str] = {}
     if not isinstance(paths, Paths):
         ragged = [robot for robot, it in enumerate(paths) if not len(it.edge) == len(it.enter) == len(it.leave)]
         faults = dict.fromkeys(ragged, "edge, enter and leave differ in length")
-        nothing = Path(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
+        nothing = RobotPath(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
         paths = [nothing if robot in faults else path for robot, path in enumerate(paths)]
     segments = segments_of(paths)
     rules: tuple[Callable[[Problem, Segments], Faults], ...] = (
@@ -114,12 +114,12 @@ def _of_commitments(problem: Problem, segments: Segments) -> Faults:
     wanted = segments_of(problem.commitments)
     first = np.searchsorted(segments.robot, np.arange(len(problem) + 1))
     place = first[wanted.robot] + wanted.segment
-    kept = place < first[wanted.robot + 1]
+    fulfilled = place < first[wanted.robot + 1]
     for column in ("edge", "enter", "leave"):
-        given = np.append(getattr(segments, column), -2)[np.where(kept, place, -1)]
-        kept &= given == getattr(wanted, column)
+        planned = np.append(getattr(segments, column), -2)[np.where(fulfilled, place, -1)]
+        fulfilled &= planned == getattr(wanted, column)
     size = problem.committed
-    for robot in np.unique(wanted.robot[~kept]).tolist():
+    for robot in np.unique(wanted.robot[~fulfilled]).tolist():
         yield robot, f"does not begin with its committed {size[robot]} segments"
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.model.planning.plan import AnytimePoint, Path, Paths, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import AnytimePoint, Paths, Plan, PlanResult, PlanStatus, RobotPath
 
 RETURNED = tuple(status for status in PlanStatus if status != PlanStatus.UNKNOWN)
 """The statuses that a planner may return."""
@@ -15,20 +15,20 @@ RETURNED = tuple(status for status in PlanStatus if status != PlanStatus.UNKNOWN
 def result_fault(result: Any) -> str | None:
     """The first fault in the types of what a planner returned, or None."""
     if not isinstance(result, PlanResult):
-        return f"returned {_kind(result)} instead of a PlanResult"
+        return f"returned {_type_name(result)} instead of a PlanResult"
     if result.status not in RETURNED:
         return f"returned the status {str(result.status)[:40]!r}, which is not one a planner may return"
     if result.plan is not None and (fault := _plan_fault(result.plan)):
         return fault
     if not isinstance(result.lower_bound, numbers.Real):
-        return f"returned {_kind(result.lower_bound)} as lower bound"
+        return f"returned {_type_name(result.lower_bound)} as lower bound"
     if not isinstance(result.statistics, Mapping):
-        return f"returned {_kind(result.statistics)} instead of a mapping as statistics"
+        return f"returned {_type_name(result.statistics)} instead of a mapping as statistics"
     for name, value in result.statistics.items():
         if not isinstance(name, str) or not isinstance(value, numbers.Real) or _overflows(value):
-            return f"returned the statistic {name!s:.40}, {_kind(value)}, which is not a number of 64 bits"
+            return f"returned the statistic {name!s:.40}, {_type_name(value)}, which is not a number of 64 bits"
     if not isinstance(result.clock_bound, bool | np.bool_):
-        return f"returned {_kind(result.clock_bound)} instead of whether the clock decided"
+        return f"returned {_type_name(result.clock_bound)} instead of whether the clock decided"
     if not isinstance(result.history, tuple | list) or not all(
         isinstance(point, AnytimePoint) for point in result.history
     ):
@@ -44,14 +44,14 @@ def _overflows(value: numbers.Real) -> bool:
 
 def _plan_fault(plan: Any) -> str | None:
     if not isinstance(plan, Plan):
-        return f"returned {_kind(plan)} instead of a Plan"
+        return f"returned {_type_name(plan)} instead of a Plan"
     if isinstance(plan.paths, Paths):
         return None if _joins(plan.paths) else "returned a plan whose flat arrays do not fit together"
     if not isinstance(plan.paths, tuple | list):
-        return f"returned a plan with {_kind(plan.paths)} instead of a tuple of paths"
+        return f"returned a plan with {_type_name(plan.paths)} instead of a tuple of paths"
     for robot, path in enumerate(plan.paths):
-        if not isinstance(path, Path):
-            return f"robot {robot}: {_kind(path)} instead of a Path"
+        if not isinstance(path, RobotPath):
+            return f"robot {robot}: {_type_name(path)} instead of a RobotPath"
         if not path.edge.ndim == path.enter.ndim == path.leave.ndim == 1:
             return f"robot {robot}: edge, enter and leave are not all one-dimensional"
     return None
@@ -66,7 +66,7 @@ def _joins(paths: Paths) -> bool:
     return bool(ends_fit and (np.diff(first) >= 0).all())
 
 
-def _kind(value: Any) -> str:
+def _type_name(value: Any) -> str:
     """A short description of a value."""
     if value is None:
         return "None"

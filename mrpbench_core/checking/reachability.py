@@ -14,14 +14,14 @@ def reachable(roadmap: Roadmap, profile: int, source: int) -> Bool:
     order = np.argsort(edges[:, 0], kind="stable")
     first = np.searchsorted(edges[order, 0], np.arange(len(roadmap.position) + 1))
     head = edges[order, 1]
-    seen = np.zeros(len(roadmap.position), bool)
-    seen[source] = True
+    visited = np.zeros(len(roadmap.position), bool)
+    visited[source] = True
     frontier = np.array([source])
     while len(frontier):
         neighbors = head[_rows(first, frontier)]
-        frontier = np.unique(neighbors[~seen[neighbors]])
-        seen[frontier] = True
-    return seen
+        frontier = np.unique(neighbors[~visited[neighbors]])
+        visited[frontier] = True
+    return visited
 
 
 def round_trips(roadmap: Roadmap, profile: int) -> Int:

@@ -111,13 +111,13 @@ def _reached(endpoint: int, arcs: list[tuple[int, int]], blocker: Int, label: In
     after: dict[int, list[int]] = defaultdict(list)
     for one, other in arcs:
         after[one].append(other)
-    seen, ahead, labels = {endpoint}, [endpoint], set()
+    visited, ahead, labels = {endpoint}, [endpoint], set()
     while ahead:
         for vertex in after[ahead.pop()]:
             if blocker[vertex] == NONE:
                 labels.add(int(label[vertex]))
-            elif vertex not in seen:
-                seen.add(vertex)
+            elif vertex not in visited:
+                visited.add(vertex)
                 ahead.append(vertex)
     return frozenset(labels)
 
@@ -130,10 +130,10 @@ def _closure(arcs: Iterable[tuple[int, int]]) -> dict[int, set[int]]:
             after[one].add(other)
     closure = {}
     for label in list(after):
-        seen, ahead = {label}, [label]
+        visited, ahead = {label}, [label]
         while ahead:
-            new = after.get(ahead.pop(), set()) - seen
-            seen |= new
+            new = after.get(ahead.pop(), set()) - visited
+            visited |= new
             ahead.extend(new)
-        closure[label] = seen
+        closure[label] = visited
     return closure

@@ -25,27 +25,27 @@ class Command(NamedTuple):
     exit code. It is imported when the command is named."""
 
 
-def summaries(own: Container[str]) -> Iterator[tuple[str, str | InputError]]:
+def summaries(built_in: Container[str]) -> Iterator[tuple[str, str | InputError]]:
     """Yield name and summary of each command of other distributions, or the reason why it cannot be used.
 
     Args:
-        own: names of the commands of the core, which no distribution replaces.
+        built_in: names of the commands of the core, which no distribution replaces.
     """
     for name, offers in _offers().items():
         try:
-            if name in own:
+            if name in built_in:
                 raise InputError(f"{_said(offers[0])} is not used: mrpbench-core has a command of this name")
             yield name, _load(_only(offers)).summary
         except InputError as error:
             yield name, error
 
 
-def find(name: str, own: Iterable[str]) -> tuple[str, ModuleType]:
+def find(name: str, built_in: Iterable[str]) -> tuple[str, ModuleType]:
     """Return the summary and the module of a command of another distribution.
 
     Args:
         name: the command.
-        own: names of the commands of the core, for suggestions.
+        built_in: names of the commands of the core, for suggestions.
 
     Raises:
         InputError: no installed distribution has it, several have it, or it cannot be imported.
@@ -56,7 +56,7 @@ def find(name: str, own: Iterable[str]) -> tuple[str, ModuleType]:
 
     known = _offers()
     if name not in known:
-        hint = remedy(name, GROUP) or did_you_mean(name, [*own, *known], "see --help")
+        hint = remedy(name, GROUP) or did_you_mean(name, [*built_in, *known], "see --help")
         raise InputError(f"no command is called {name!r}", hint=hint)
     entry = _only(known[name])
     if problem := incompatibility((entry.dist and entry.dist.requires) or ()):

@@ -99,10 +99,10 @@ def _builder(arguments: argparse.Namespace, world: "World") -> "RoadmapBuilder":
     raster = "lanes" if world.lanes or arguments.compatible else "grid"
     several = len(world.levels) > 1  # which no raster has
     name = arguments.roadmap or ("graph" if several else raster)
-    given = {"cell_size": arguments.cell_size, "compatible": arguments.compatible}
+    chosen = {"cell_size": arguments.cell_size, "compatible": arguments.compatible}
     if several and arguments.roadmap is None:  # then --cell-size is that of the conversion
-        given.pop("cell_size")
-    options = {key: value for key, value in given.items() if value is not None}
+        chosen.pop("cell_size")
+    options = {key: value for key, value in chosen.items() if value is not None}
     builder: RoadmapBuilder = make_component(Registry(RoadmapBuilder).get(name), name, options)  # type: ignore[type-abstract]
     return builder
 
@@ -113,8 +113,8 @@ def _convert(file: Path, world: "World", roadmap: "Roadmap", cell_size: float | 
     from mrpbench_core.files.raster import write_movingai_map, write_ros_map
 
     if file.suffix in (".yaml", ".yml"):
-        own = world.levels[0].occupancy
-        size = cell_size or (RESOLUTION if own is None else own.cell_size)
+        occupancy = world.levels[0].occupancy
+        size = cell_size or (RESOLUTION if occupancy is None else occupancy.cell_size)
         write_ros_map(file, rasterise(world.levels[0], size, "touched"))
     elif file.suffix == ".map":
         write_movingai_map(file, planned_raster(roadmap))

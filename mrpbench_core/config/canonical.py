@@ -103,11 +103,11 @@ def json_scalar(value: Any) -> Any:
 
 
 def _work(plain: Mapping[str, Any]) -> Any:
-    kept = {key: _by_content(value) for key, value in plain.items() if key not in NOT_IDENTIFYING}
+    identifying = {key: _by_content(value) for key, value in plain.items() if key not in NOT_IDENTIFYING}
     for group, _, option in (key.partition(".") for key in NOT_IDENTIFYING):
-        if option and isinstance(kept.get(group), dict):
-            kept[group] = {key: value for key, value in kept[group].items() if key != option}
-    return kept
+        if option and isinstance(identifying.get(group), dict):
+            identifying[group] = {key: value for key, value in identifying[group].items() if key != option}
+    return identifying
 
 
 def _by_content(value: Any) -> Any:

@@ -47,13 +47,13 @@ def refusals(config: RunConfig, root: Item) -> list[InputError]:
         reason = f"means nothing with {_name(config.simulator)}, which counts steps"
         return [
             _place(root, key).location.error(key, reason, "leave it out")
-            for key, given in (
+            for key, applies in (
                 ("crowds", config.crowds),
                 ("noise", config.noise != Noise()),
                 ("delays", config.delays),
                 ("faults", config.faults),
             )
-            if given
+            if applies
         ]
     if config.tasks is not None and config.delays.worst_case:
         reason = "an adversary needs the plan, and tasks that come over time have none at the start"

@@ -31,12 +31,14 @@ def plugins_with(option: str, cls: type[Component]) -> str | None:
     Plugins of other packages are not imported for a hint.
     """
     package = cls.__module__.partition(".")[0]
-    own = next((entry.name for entry in providers(cls.group) if entry.value.endswith(f":{cls.__name__}")), cls.__name__)
+    name_of_class = next(
+        (entry.name for entry in providers(cls.group) if entry.value.endswith(f":{cls.__name__}")), cls.__name__
+    )
     names = []
     for provider in providers(cls.group):
         if provider.value.partition(":")[0].partition(".")[0] == package:
             with suppress(InputError):
                 names += [provider.name] if option in attrs.fields_dict(load(provider)) else []
-    names.sort(key=lambda name: -difflib.SequenceMatcher(None, own, name).ratio())
+    names.sort(key=lambda name: -difflib.SequenceMatcher(None, name_of_class, name).ratio())
     verb = "has it" if len(names) == 1 else "have it"
     return f"{', '.join(names[:MOST])} {verb}" if names else None

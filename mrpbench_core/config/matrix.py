@@ -63,9 +63,9 @@ class Matrix:
 
     def replaced(self, overrides: Sequence[Axis]) -> "Matrix":
         """Return this matrix without the axes (or columns of zipped axes) that overrides replace."""
-        given = {name for axis in overrides for name in axis.names}
-        axes = (_without(axis, given) for axis in self.axes)
-        include = (tuple(axis for axis in entry if not given & set(axis.names)) for entry in self.include)
+        overridden = {name for axis in overrides for name in axis.names}
+        axes = (_without(axis, overridden) for axis in self.axes)
+        include = (tuple(axis for axis in entry if not overridden & set(axis.names)) for entry in self.include)
         return Matrix(tuple(axis for axis in axes if axis.names), tuple(include), self.exclude)
 
     def points(self, root: Item, overrides: Sequence[Axis] = ()) -> Iterator[Point]:
@@ -200,11 +200,11 @@ def _keyed(value: Item, axis: Item) -> Item:
     return attrs.evolve(value, key=axis.key)
 
 
-def _without(axis: Axis, given: set[str]) -> Axis:
-    kept = [index for index, name in enumerate(axis.names) if name not in given]
-    if len(kept) == len(axis.names):
+def _without(axis: Axis, overridden: set[str]) -> Axis:
+    remaining = [index for index, name in enumerate(axis.names) if name not in overridden]
+    if len(remaining) == len(axis.names):
         return axis
-    return Axis(tuple(axis.names[i] for i in kept), [tuple(row[i] for i in kept) for row in axis.rows])
+    return Axis(tuple(axis.names[i] for i in remaining), [tuple(row[i] for i in remaining) for row in axis.rows])
 
 
 def _varying(blocks: Sequence[tuple[Axis, ...]]) -> set[str]:

@@ -66,7 +66,7 @@ class Structure:
             return config
         return attrs.evolve(config, metrics=self._shared(self._with_metrics, config.metrics, added))
 
-    def settings(self, given: Mapping[str, Any]) -> dict[str, Any]:
+    def settings(self, values: Mapping[str, Any]) -> dict[str, Any]:
         """Return some settings of `RunConfig` by name, from plain data.
 
         Raises:
@@ -74,7 +74,7 @@ class Structure:
         """
         fields = attrs.fields(RunConfig)
         return {
-            key: self._field(from_data(value, Location()), getattr(fields, key), key) for key, value in given.items()
+            key: self._field(from_data(value, Location()), getattr(fields, key), key) for key, value in values.items()
         }
 
     def component(self, item: Item, base: type[C], key: str) -> C:
@@ -83,19 +83,19 @@ class Structure:
 
     def _with_defaults(self, root: Item) -> dict[str, Item]:
         """Return the settings that the file leaves to the default plugins."""
-        given = root.value
-        planning_only = "simulator" in given and given["simulator"].value == "none"
+        blocks = root.value
+        planning_only = "simulator" in blocks and blocks["simulator"].value == "none"
         without: tuple[str, ...] = EXECUTION if planning_only else ()
-        if "execution" in given and given["execution"].value == "schedule_only":
+        if "execution" in blocks and blocks["execution"].value == "schedule_only":
             without = WITHOUT_PHYSICS
         added = {}
         for field in attrs.fields(RunConfig):
             default = field.metadata.get("written_default", attrs.NOTHING)
-            if field.name in given or default is attrs.NOTHING:
+            if field.name in blocks or default is attrs.NOTHING:
                 continue
             if field.name in without and isinstance(default, str):
                 default = "none"
-            if field.name == "assigner" and self._gives_goals(given.get("scenario")):
+            if field.name == "assigner" and self._gives_goals(blocks.get("scenario")):
                 default = "identity"
             place = attrs.evolve(root.location, line=None, column=None)
             added[field.name] = self._defaults.setdefault((field.name, default), from_data(default, place))
@@ -250,7 +250,7 @@ class Structure:
         except Exception as error:  # noqa: BLE001 - a plugin's own check of its options
             raise InputErrors(item.location.error(key, words_of(error))) from None
 
-    def _inside(self, name: str, given: Mapping[str, Item]) -> str | None:
+    def _inside(self, name: str, blocks: Mapping[str, Item]) -> str | None:
         """Return the hint for an option that was written outside of its block; None if no block has it."""
         places = []
         for field in attrs.fields(RunConfig):
@@ -259,7 +259,7 @@ class Structure:
                     continue
                 with suppress(InputErrors, Unfit):
                     if issubclass(kind, Component):
-                        block = given.get(field.name)
+                        block = blocks.get(field.name)
                         chosen = block.value.get("plugin") if block and isinstance(block.value, dict) else block
                         default = field.metadata.get("written_default")
                         chosen = chosen or from_data(default if isinstance(default, str) else "none", Location())

@@ -250,11 +250,11 @@ class ContractChecks:
 
 def check_returned(component: Component, returned: T, wanted: type) -> T:
     """Check the class of what a component returns."""
-    _require_class(_kind(component), returned, wanted)
+    _require_class(_component_kind(component), returned, wanted)
     return returned
 
 
-def _kind(component: Component) -> str:
+def _component_kind(component: Component) -> str:
     return f"the {kind_of(component.group).replace('_', ' ')}"
 
 

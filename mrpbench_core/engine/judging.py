@@ -13,7 +13,7 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.printing import printable
 from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.referee.asked import Asked
-from mrpbench_core.referee.verdict import Ending, Verdict, broken, judge
+from mrpbench_core.referee.verdict import Failure, Verdict, broken, judge
 from mrpbench_core.store.instances import InstanceFolder
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
@@ -64,7 +64,7 @@ def record_of(
         unexported=claims.unexported,
         unarrived=claims.unarrived,
     )
-    verdict = Verdict(ending=claims.ending)
+    verdict = Verdict(failure=claims.failure)
     if claims.recorded:
         try:
             recording = Recording(paths.recording, instances)
@@ -72,39 +72,39 @@ def record_of(
             verdict = broken(f"the recording was damaged: {error.message}")
         else:
             with closing(recording):
-                verdict = judge(asked, recording, prepared.instance, metrics, claims.ending)
+                verdict = judge(asked, recording, prepared.instance, metrics, claims.failure)
                 record.executed = asked.executes and "time" in recording.channels
     else:
         paths.recording.unlink(missing_ok=True)  # which has no verdict
-        if claims.ending is None or claims.ending.status not in UNRECORDED:
+        if claims.failure is None or claims.failure.status not in UNRECORDED:
             verdict = broken("nothing was recorded")
     if record.executed:
         record.true_poses = asked.true_poses
     record.plan, record.metrics, record.unmeasured = verdict.plan, verdict.metrics, verdict.unmeasured
-    end(record, verdict.ending)
+    end(record, verdict.failure)
     return record
 
 
-def keep(record: RunRecord, paths: RunPaths, kept: str) -> None:
+def keep(record: RunRecord, paths: RunPaths, which: str) -> None:
     """Bring the files of a run to disk, or remove a recording that is not kept.
 
     Args:
         record: names the files from now on.
         paths: of the run.
-        kept: `all`, `failed` or `none`.
+        which: `all`, `failed` or `none`.
 
     Raises:
         OSError: a file cannot be read or written.
     """
-    wanted = kept == "all" or (kept == "failed" and record.status != RunStatus.SUCCEEDED)
+    wanted = which == "all" or (which == "failed" and record.status != RunStatus.SUCCEEDED)
     record.files = seal(paths, recording=wanted)
     if not wanted:
         paths.recording.unlink(missing_ok=True)
 
 
-def end(record: RunRecord, ending: Ending | None) -> None:
-    """Give a record the status and the reason of an ending; None: the run succeeded."""
-    if ending is None:
+def end(record: RunRecord, failure: Failure | None) -> None:
+    """Give a record the status and the reason of a failure; None: the run succeeded."""
+    if failure is None:
         return
-    record.status = ending.status
-    record.error = RunError(stage=ending.stage, message=printable(ending.message))
+    record.status = failure.status
+    record.error = RunError(stage=failure.stage, message=printable(failure.message))

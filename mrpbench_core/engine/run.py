@@ -70,5 +70,5 @@ def prepare(
 def ended_before(run_id: str, ended: RunEnded) -> RunRecord:
     """The record of a run that ended before there was an instance."""
     record = RunRecord(run_id=run_id, scenario_id=ended.scenario_id)
-    end(record, ended.ending)
+    end(record, ended.failure)
     return record

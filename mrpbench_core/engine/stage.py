@@ -8,7 +8,7 @@ import attrs
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.plugins.hooks import Hooks
-from mrpbench_core.referee.verdict import Ending
+from mrpbench_core.referee.verdict import Failure
 from mrpbench_core.store.paths import RunPaths
 
 Announce = Callable[[Stage, dict[str, Any]], None]
@@ -47,6 +47,6 @@ class RunEnded(Exception):  # noqa: N818 - not an error
         """The scenario, where the run ended before there was an instance."""
 
     @property
-    def ending(self) -> Ending:
+    def failure(self) -> Failure:
         """The same as plain data."""
-        return Ending(status=self.status, stage=self.stage, message=str(self))
+        return Failure(status=self.status, stage=self.stage, message=str(self))

@@ -36,10 +36,10 @@ class Writer:
             self.path, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | (os.O_EXCL if exclusive else 0), 0o644
         )
         content = b"" if exclusive else self.path.read_bytes()
-        kept = content[: content.rfind(b"\n") + 1]
-        os.ftruncate(self._descriptor, len(kept))
+        lines = content[: content.rfind(b"\n") + 1]
+        os.ftruncate(self._descriptor, len(lines))
         os.lseek(self._descriptor, 0, os.SEEK_END)
-        self._written = sha256(kept)
+        self._written = sha256(lines)
         self._left = _identity(os.fstat(self._descriptor))
 
     def write(self, *values: Mapping[str, Any]) -> None:

@@ -72,8 +72,8 @@ class Nav2File:
 
     def node(self, name: str, namespace: str = "") -> Nav2Block | None:
         """Return the parameters of a node in a namespace, or in the only one that has it; None = there are none."""
-        own = self.namespaces(name)
-        space = own[0] if len(own) == 1 else namespace
+        spaces = self.namespaces(name)
+        space = spaces[0] if len(spaces) == 1 else namespace
         names = (*filter(None, space.split("/")), name)
         paths = [names, (*names, name)] if name.endswith("_costmap") else [names]
         matching = [entry for entry in self._entries if any(entry.matches(*path) for path in paths)]

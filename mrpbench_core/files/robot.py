@@ -107,13 +107,13 @@ def _described(document: Document) -> dict[str, Any]:
     robot = read_urdf(file)
     drive = drive_of(robot, urdf)
     mesh_files(robot, file)
-    told = {"mass": drive.mass, "wheel_separation": drive.separation, "wheel_radius": drive.radius}
-    for key, value in told.items():
+    facts = {"mass": drive.mass, "wheel_separation": drive.separation, "wheel_radius": drive.radius}
+    for key, value in facts.items():
         if value is not None and key in document.data:
             raise document.error(f"the URDF already gives {key} = {value:g}", (key,), hint="remove it here")
     if drive.radius is None and "wheel_radius" not in document.data:
         raise document.error("wheel_radius is missing: the wheels of the URDF are not spheres or cylinders", steps)
-    return {"urdf": urdf} | {key: value for key, value in told.items() if value is not None}
+    return {"urdf": urdf} | {key: value for key, value in facts.items() if value is not None}
 
 
 def _lidar(document: Document) -> Lidar:

@@ -33,17 +33,17 @@ class Promises:
         Raises:
             InputError: it promises something without saying how much.
         """
-        kept = frozenset(planner.kept_promises)
+        kept_promises = frozenset(planner.kept_promises)
         for promise, name in ((Promise.BOUNDED, "suboptimality"), (Promise.ROBUST, "robustness")):
-            if promise in kept and getattr(type(planner), name) is getattr(Planner, name):
+            if promise in kept_promises and getattr(type(planner), name) is getattr(Planner, name):
                 raise InputError(
                     f"planner: {type(planner).__name__} promises `{promise}`, so it must override `{name}`"
                 )
         return cls(
-            kept=kept,
-            factor=float(planner.suboptimality) if Promise.BOUNDED in kept else 1.0,
+            kept=kept_promises,
+            factor=float(planner.suboptimality) if Promise.BOUNDED in kept_promises else 1.0,
             assigns=bool(planner.assigns),
-            k=int(planner.robustness) if Promise.ROBUST in kept else 0,
+            k=int(planner.robustness) if Promise.ROBUST in kept_promises else 0,
         )
 
     @classmethod

@@ -32,8 +32,8 @@ STATUS = {
 
 
 @attrs.frozen(kw_only=True)
-class Ending:
-    """How a run ended: as its own process says, or as the referee finds."""
+class Failure:
+    """Why a run did not succeed: as its own process says, or as the referee finds."""
 
     status: RunStatus
     stage: Stage
@@ -45,7 +45,7 @@ class Ending:
 class Verdict:
     """The status of a run, its metrics, and what its planner claims."""
 
-    ending: Ending | None = None
+    failure: Failure | None = None
     """None: the run succeeded."""
     plan: dict[str, Any] = attrs.field(factory=dict)
     """See `mrpbench_core.referee.plan_summary`."""
@@ -54,7 +54,7 @@ class Verdict:
 
 
 def judge(
-    asked: Asked, recording: Recording, instance_name: str | None, metrics: Mapping[str, Metric], said: Ending | None
+    asked: Asked, recording: Recording, instance_name: str | None, metrics: Mapping[str, Metric], said: Failure | None
 ) -> Verdict:
     """Return the verdict on a run.
 
@@ -75,29 +75,29 @@ def judge(
         result, fault = judge_plan(asked.promises, instance.problem, recorded.claimed)
         if fault is not None:
             return Verdict(
-                ending=_ending(RunStatus.PLAN_INVALID, Stage.PLANNING, f"{fault} ({asked.title('planner')})")
+                failure=_failure(RunStatus.PLAN_INVALID, Stage.PLANNING, f"{fault} ({asked.title('planner')})")
             )
         if result.plan is None and said is not None and said.status == RunStatus.PLAN_INVALID:
             message = f"{said.message} ({asked.title('planner')})"
             return Verdict(
-                ending=attrs.evolve(said, message=message)
+                failure=attrs.evolve(said, message=message)
             )  # what the planner returned could not be recorded
         summary = {} if asked.tasks else plan_summary(asked.promises, instance.problem, result)
         run = _finished(recording, result, asked)
         if result.plan is None:
-            ending: Ending | None = said if _agrees(said, STATUS[result.status]) else None
+            failure: Failure | None = said if _agrees(said, STATUS[result.status]) else None
             said_none = f"the planner ended with {result.status}"
-            ending = ending or _ending(STATUS[result.status], Stage.PLANNING, said_none)
+            failure = failure or _failure(STATUS[result.status], Stage.PLANNING, said_none)
         elif asked.executes:
-            ending = _executed(asked, run, said)
+            failure = _executed(asked, run, said)
         else:
-            ending = None
-        if ending is not None and ending.status == RunStatus.CONTRACT_BROKEN:
-            return Verdict(ending=ending, plan=summary)
+            failure = None
+        if failure is not None and failure.status == RunStatus.CONTRACT_BROKEN:
+            return Verdict(failure=failure, plan=summary)
         values, reasons = measure(metrics, run)
     except InputError as error:
         return broken(f"the recording was damaged: {error.message}")
-    return Verdict(ending=ending, plan=summary, metrics=values, unmeasured=reasons)
+    return Verdict(failure=failure, plan=summary, metrics=values, unmeasured=reasons)
 
 
 def finished_run(recording: Recording, asked: Asked) -> FinishedRun:
@@ -115,20 +115,20 @@ def _finished(recording: Recording, result: PlanResult, asked: Asked) -> Finishe
     return FinishedRun(context=context, executed=asked.executes, channels=recording.channels, first_routes=first.routes)
 
 
-def _executed(asked: Asked, run: FinishedRun, said: Ending | None) -> Ending | None:
+def _executed(asked: Asked, run: FinishedRun, said: Failure | None) -> Failure | None:
     """How the execution ended, None if every robot arrived."""
     if not run.executed:
         if said is not None and said.stage == Stage.EXECUTION:
             return said  # the dispatcher refused the plan
-        return _ending(RunStatus.CONTRACT_BROKEN, Stage.EXECUTION, "nothing was recorded of the execution")
+        return _failure(RunStatus.CONTRACT_BROKEN, Stage.EXECUTION, "nothing was recorded of the execution")
     if asked.driven and (fault := motion_fault(run, asked.rate, asked.actuation, asked.apart)):
         what = f"the recorded motion is impossible: {fault}"
-        return _ending(RunStatus.CONTRACT_BROKEN, Stage.EXECUTION, f"{what} ({asked.title('simulator')})")
+        return _failure(RunStatus.CONTRACT_BROKEN, Stage.EXECUTION, f"{what} ({asked.title('simulator')})")
     time = run.channel("time")
     gave_up = _gave_up(run)
     if asked.tasks:
         if (fault := tasks_fault(run, asked.driven)) is not None:
-            return _ending(RunStatus.CONTRACT_BROKEN, Stage.EXECUTION, f"the recorded tasks are impossible: {fault}")
+            return _failure(RunStatus.CONTRACT_BROKEN, Stage.EXECUTION, f"the recorded tasks are impossible: {fault}")
         failed, missed = gave_up.any() or _unserved(run), "no plan was found and no task was done"
     else:
         missing = np.isnan(arrival_times(run))
@@ -140,7 +140,7 @@ def _executed(asked: Asked, run: FinishedRun, said: Ending | None) -> Ending | N
     status = RunStatus.EXECUTION_ABORTED if aborted else RunStatus.GOALS_MISSED
     if said is not None and _agrees(said, status):
         return said
-    return _ending(status, Stage.EXECUTION, f"{missed} within {min(asked.limit_s, time[-1]):g} simulated seconds")
+    return _failure(status, Stage.EXECUTION, f"{missed} within {min(asked.limit_s, time[-1]):g} simulated seconds")
 
 
 def _gave_up(run: FinishedRun) -> Bool:
@@ -162,14 +162,14 @@ def _not_arrived(run: FinishedRun, missing: Bool) -> str:
     return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "") + " did not arrive"
 
 
-def _agrees(said: Ending | None, status: RunStatus) -> bool:
+def _agrees(said: Failure | None, status: RunStatus) -> bool:
     return said is not None and said.status == status
 
 
-def _ending(status: RunStatus, stage: Stage, message: str) -> Ending:
-    return Ending(status=status, stage=stage, message=message)
+def _failure(status: RunStatus, stage: Stage, message: str) -> Failure:
+    return Failure(status=status, stage=stage, message=message)
 
 
 def broken(message: str) -> Verdict:
     """The verdict on a run whose recording cannot be judged."""
-    return Verdict(ending=_ending(RunStatus.CONTRACT_BROKEN, Stage.METRICS, message))
+    return Verdict(failure=_failure(RunStatus.CONTRACT_BROKEN, Stage.METRICS, message))

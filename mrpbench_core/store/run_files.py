@@ -20,8 +20,8 @@ def seal(paths: RunPaths, *, recording: bool = True) -> list[str]:
     Raises:
         OSError: a file cannot be read.
     """
-    kept = [paths.recording] if recording and paths.recording.is_file() else []
-    lines = [f"{digest(file)}  recordings/{file.name}" for file in kept]
+    files = [paths.recording] if recording and paths.recording.is_file() else []
+    lines = [f"{digest(file)}  recordings/{file.name}" for file in files]
     exported = _files(paths.exports)
     return lines + [f"{digest(file)}  exports/{file.relative_to(paths.exports.parent)}" for file in exported]
 

@@ -16,7 +16,7 @@ import attrs
 import numpy as np
 from numpy.typing import ArrayLike
 
-from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.planning.plan import RobotPath
 from mrpbench_core.model.planning.problem import Feature, Problem, features_of
 from mrpbench_core.model.planning.roadmap import Raster, Roadmap
 
@@ -73,7 +73,7 @@ def build(
     """A problem of like robots, each with one goal set; `features` are added, `fields` replace those of `Problem`."""
     start = np.array(list(starts), np.int32)
     count = len(start)
-    given: dict[str, Any] = {
+    defaults: dict[str, Any] = {
         "roadmap": road,
         "profile": np.zeros(count, np.int32),
         "radius": np.broadcast_to(radius, count).astype(float),
@@ -81,17 +81,17 @@ def build(
         "ready": np.zeros(count, np.int64),
         "goals": tuple((tuple(goal_set),) for goal_set in goal_sets),
     }
-    made = Problem(**given | fields)
+    made = Problem(**defaults | fields)
     return attrs.evolve(made, features=features_of(made) | set(features))
 
 
-def unit_path(edges: Iterable[int]) -> Path:
+def unit_path(edges: Iterable[int]) -> RobotPath:
     """A path that begins at tick 0 and takes one tick for each of its edges, -1 = wait."""
     edge = np.array(list(edges), np.int32)
-    return Path(edge=edge, enter=np.arange(len(edge)), leave=np.arange(len(edge)) + 1)
+    return RobotPath(edge=edge, enter=np.arange(len(edge)), leave=np.arange(len(edge)) + 1)
 
 
-def path_through(road: Roadmap, vertices: Sequence[int]) -> Path:
+def path_through(road: Roadmap, vertices: Sequence[int]) -> RobotPath:
     """A path through `vertices`, each edge in its duration; a repeated vertex is a wait of one tick."""
     index = {(tail, head): edge for edge, (tail, head) in enumerate(road.edges.tolist())}
     steps = [index[a, b] if a != b else -1 for a, b in pairwise(map(int, vertices))]
@@ -100,6 +100,6 @@ def path_through(road: Roadmap, vertices: Sequence[int]) -> Path:
     return timed_path(steps, times[:-1], times[1:])
 
 
-def timed_path(edge: Sequence[int], enter: Sequence[int], leave: Sequence[int]) -> Path:
+def timed_path(edge: Sequence[int], enter: Sequence[int], leave: Sequence[int]) -> RobotPath:
     """A path from lists."""
-    return Path(edge=np.array(edge, np.int32), enter=np.array(enter, np.int64), leave=np.array(leave, np.int64))
+    return RobotPath(edge=np.array(edge, np.int32), enter=np.array(enter, np.int64), leave=np.array(leave, np.int64))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from mrpbench_tests.instances.roadmaps import roadmap, two_way_grid
 
-from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.planning.plan import RobotPath
 from mrpbench_core.model.planning.problem import Problem, features_of
 from mrpbench_core.model.planning.roadmap import Roadmap
 
@@ -23,11 +23,11 @@ def grid(rows: int, columns: int, ticks=1) -> Roadmap:
     return attrs.evolve(made, duration=np.broadcast_to(ticks, made.duration.shape))
 
 
-def path(roadmap: Roadmap, *steps) -> Path:
+def path(roadmap: Roadmap, *steps) -> RobotPath:
     """A path of steps (from, to, leave tick), the first from tick 0; a step from a vertex to itself is a wait."""
     edges = {(int(a), int(b)): edge for edge, (a, b) in enumerate(roadmap.edges)}
     leave = [tick for _, _, tick in steps]
-    return Path(edge=[edges.get((a, b), -1) for a, b, _ in steps], enter=[0, *leave][: len(leave)], leave=leave)
+    return RobotPath(edge=[edges.get((a, b), -1) for a, b, _ in steps], enter=[0, *leave][: len(leave)], leave=leave)
 
 
 def problem(roadmap: Roadmap, starts, goals=None, features=frozenset(), radius=0.1, **fields) -> Problem:

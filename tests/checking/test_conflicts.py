@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.checking.conflicts import Conflict, find_conflicts
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.planning.problem import Feature, Rules
 
 FORBIDDEN = Rules(following="forbidden")
@@ -209,7 +209,7 @@ def test_the_validator_agrees_with_a_simulation(make, seed):
             edge.append(take)
             leave.append(lasts + (leave[-1] if leave else 0))
             at = at if take < 0 else int(roadmap.edges[take, 1])
-        paths.append(Path(edge=edge, enter=[0, *leave][: len(leave)], leave=leave))
+        paths.append(RobotPath(edge=edge, enter=[0, *leave][: len(leave)], leave=leave))
     plan = Plan(paths=tuple(paths))
     rules = Rules(
         following=str(random.choice(["allowed", "forbidden"])), at_goal=str(random.choice(["stay", "disappear"]))

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from mrpbench_core.checking.context import check_context, check_rows
-from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.planning.plan import RobotPath
 from mrpbench_core.model.planning.roadmap import Raster, Resource
 from mrpbench_core.model.worlds.world import Door, Lane, Lift, Vertex
 
@@ -60,9 +60,9 @@ LIFT = Lift(name="l", x=0, y=0, yaw=0, width=1, depth=1, levels=(0,), initial_le
         ("problem roadmap resources", (Resource(name="r", kind="door", edges=(9,)),), "a resource: an edge"),
         ("problem roadmap grid", Raster(shape=(1, 2), cell_size=1.0, origin=(0.0, 0.0), cell=[[0, 0], [0, 1], [0, 2]]),
          "roadmap.grid.cell does not exist"),
-        ("result plan paths 0", Path(edge=[8], enter=[0], leave=[1]), "result.plan: an edge does not exist"),
-        ("result plan paths 0", Path(edge=[0], enter=[0, 1], leave=[1]), "different numbers of edges and ticks"),
-        ("result plan paths 0", Path(edge=[0], enter=[2], leave=[1]), "result.plan: the ticks of a path decrease"),
+        ("result plan paths 0", RobotPath(edge=[8], enter=[0], leave=[1]), "result.plan: an edge does not exist"),
+        ("result plan paths 0", RobotPath(edge=[0], enter=[0, 1], leave=[1]), "different numbers of edges and ticks"),
+        ("result plan paths 0", RobotPath(edge=[0], enter=[2], leave=[1]), "result.plan: the ticks of a path decrease"),
         ("routes 0 speed", [1.0] * 9, "routes: the numbers of waypoints, levels and speeds do not agree"),
     ],
 )  # fmt: skip

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.planning.problem import Rules
 
 LANE = [(0, 1, 1), (1, 1, 3), (1, 2, 4)]
@@ -172,7 +172,7 @@ def test_random_mutations_of_a_sound_path_are_judged_as_by_walking_it(make, seed
         leave.append(now)
         at = at if take < 0 else int(roadmap.edges[take, 1])
     asked = attrs.evolve(asked, goals=(((at,),),))
-    sound = Path(edge=edge, enter=enter, leave=leave)
+    sound = RobotPath(edge=edge, enter=enter, leave=leave)
     assert walks(asked, sound)
     assert fault(asked, sound) is None
     arrays = {"edge": sound.edge.copy(), "enter": sound.enter.copy(), "leave": sound.leave.copy()}
@@ -182,7 +182,7 @@ def test_random_mutations_of_a_sound_path_are_judged_as_by_walking_it(make, seed
         arrays[name][where] = (
             random.integers(-2, 26) if name == "edge" else arrays[name][where] + random.integers(-2, 3)
         )
-    changed = Path(**arrays)
+    changed = RobotPath(**arrays)
     assert (fault(asked, changed) is None) == walks(asked, changed)
 
 
@@ -200,7 +200,7 @@ def test_robots_that_disappear_at_their_goals_let_others_end_there(make, lane):
 def test_all_conflicts_are_counted_unless_told_otherwise(make):
     robots = 150
     problem = make.problem(make.grid(1, 2), [0] * robots)
-    nothing = Path(edge=[], enter=[], leave=[])
+    nothing = RobotPath(edge=[], enter=[], leave=[])
     pairs = robots * (robots - 1) // 2
     assert len(check_plan(problem, Plan(paths=(nothing,) * robots)).conflicts) == pairs > 10_000
     assert len(check_plan(problem, Plan(paths=(nothing,) * robots), conflict_limit=3).conflicts) == 3

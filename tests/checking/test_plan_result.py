@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from mrpbench_core.checking.plan_result import result_fault
-from mrpbench_core.model.planning.plan import AnytimePoint, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import AnytimePoint, Plan, PlanResult, PlanStatus, RobotPath
 
-EMPTY = Path(edge=[], enter=[], leave=[])
-FLAT = Path(edge=np.zeros((1, 1)), enter=np.zeros((1, 1)), leave=np.ones((1, 1)))
+EMPTY = RobotPath(edge=[], enter=[], leave=[])
+FLAT = RobotPath(edge=np.zeros((1, 1)), enter=np.zeros((1, 1)), leave=np.ones((1, 1)))
 
 
 def solved(**values):
@@ -25,7 +25,7 @@ def solved(**values):
         (solved(status=[]), "status '[]'"),
         (solved(plan=[EMPTY]), "type list instead of a Plan"),
         (solved(plan=Plan(paths=None)), "None instead of a tuple of paths"),
-        (solved(plan=Plan(paths=(EMPTY, None))), "robot 1: None instead of a Path"),
+        (solved(plan=Plan(paths=(EMPTY, None))), "robot 1: None instead of a RobotPath"),
         (solved(plan=Plan(paths=(FLAT,))), "robot 0: edge, enter and leave are not all one-dimensional"),
         (solved(lower_bound="low"), "type str as lower bound"),
         (solved(statistics=[1]), "type list instead of a mapping"),

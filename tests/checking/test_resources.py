@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.checking.conflicts import Conflict, find_conflicts
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.planning.roadmap import Resource
 
 
@@ -85,7 +85,7 @@ def wander(random, grid, at):
         edge.append(take)
         leave.append(int(random.integers(take >= 0, 4)) + (leave[-1] if leave else 0))
         at = at if take < 0 else int(grid.edges[take, 1])
-    return Path(edge=edge, enter=[0, *leave][: len(leave)], leave=leave)
+    return RobotPath(edge=edge, enter=[0, *leave][: len(leave)], leave=leave)
 
 
 def in_use(grid, resource, at, path, end):

@@ -34,10 +34,10 @@ from mrpbench_core.builtin.dispatchers.all_at_once import AllAtOnce
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.model.execution.motion import Mode
 from mrpbench_core.model.execution.observation import Estimate
-from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.planning.plan import RobotPath
 
 NOTHING = np.empty(0, np.int64)
-STAY = Path(edge=NOTHING, enter=NOTHING, leave=NOTHING)
+STAY = RobotPath(edge=NOTHING, enter=NOTHING, leave=NOTHING)
 
 
 def replace(name, value):

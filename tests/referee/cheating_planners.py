@@ -10,10 +10,10 @@ import numpy as np
 from mrpbench_planners_mapf.prioritized import Prioritized
 
 from mrpbench_core.api import option
-from mrpbench_core.model.planning.plan import Path, Paths, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import Paths, Plan, PlanResult, PlanStatus, RobotPath
 
 NOTHING = np.empty(0, np.int64)
-STAY = Path(edge=NOTHING, enter=NOTHING, leave=NOTHING)
+STAY = RobotPath(edge=NOTHING, enter=NOTHING, leave=NOTHING)
 
 
 def replace(name, value):
@@ -41,7 +41,7 @@ def all_at_once(result):
         moves = path.edge >= 0
         length = (path.leave - path.enter)[moves]
         leave = np.cumsum(length)
-        paths.append(Path(edge=path.edge[moves], enter=leave - length, leave=leave))
+        paths.append(RobotPath(edge=path.edge[moves], enter=leave - length, leave=leave))
     return attrs.evolve(result, plan=Plan(paths=tuple(paths)))
 
 
@@ -49,7 +49,7 @@ class Planning:
     """What planners do, by name: they are given the problem and an honest answer."""
 
     def arrival_property(problem, result):
-        Path.arrival = property(lambda path: len(path.edge) // 2)
+        RobotPath.arrival = property(lambda path: len(path.edge) // 2)
         return result
 
     def plan_costs(problem, result):
@@ -155,7 +155,7 @@ class Planning:
         goals = [goals[-1][0] for goals in problem.goals]
         jumps = np.array([*zip(problem.start.tolist(), goals, strict=True)], np.int32)
         object.__setattr__(problem.roadmap, "edges", jumps)
-        paths = [Path(edge=[robot], enter=[0], leave=[1]) for robot in range(len(problem))]
+        paths = [RobotPath(edge=[robot], enter=[0], leave=[1]) for robot in range(len(problem))]
         return attrs.evolve(result, plan=Plan(paths=tuple(paths)))
 
     def tick(problem, result):
@@ -243,14 +243,14 @@ class Planning:
         from mrpbench_core.engine.drive.drive import Claims
 
         replace("_drive", lambda inputs, instance, claims: None)
-        Claims.message = lambda claims: {**attrs.asdict(claims), "recorded": False, "ending": None}
+        Claims.message = lambda claims: {**attrs.asdict(claims), "recorded": False, "failure": None}
         return standing(problem, result)
 
     def claims(problem, result):
         from mrpbench_core.engine.drive.drive import Claims
 
         Claims.message = lambda claims: {
-            "ending": None,
+            "failure": None,
             "recorded": True,
             "unexported": {},
             "unarrived": {},
@@ -262,14 +262,14 @@ class Planning:
     def claims_without_form(problem, result):
         from mrpbench_core.engine.drive.drive import Claims
 
-        Claims.message = lambda claims: {"ending": 7, "timing": [1]}
+        Claims.message = lambda claims: {"failure": 7, "timing": [1]}
         return result
 
     def said_infeasible(problem, result):
         from mrpbench_core.engine.drive.drive import Claims
 
-        ending = {"status": "scenario_infeasible", "stage": "scenario", "message": "no robot can arrive"}
-        Claims.message = lambda claims: {"ending": ending, "recorded": False, "timing": {}}
+        failure = {"status": "scenario_infeasible", "stage": "scenario", "message": "no robot can arrive"}
+        Claims.message = lambda claims: {"failure": failure, "recorded": False, "timing": {}}
         return result
 
     def own_record(problem, result):
@@ -293,7 +293,7 @@ class Planning:
         def change():
             while True:
                 object.__setattr__(problem, "goals", tuple(((start,),) for start in problem.start.tolist()))
-                Path.arrival = property(lambda path: 0)
+                RobotPath.arrival = property(lambda path: 0)
 
         threading.Thread(target=change, daemon=True).start()
         time.sleep(0.01)
@@ -326,7 +326,7 @@ def later(result):
         wait = ([0], [9]) if len(path) else ([], [])
         edge = np.append(np.full(len(wait[0]), -1), path.edge)
         enter, leave = np.append(wait[0], path.enter + 9), np.append(wait[1], path.leave + 9)
-        paths.append(Path(edge=edge, enter=enter, leave=leave))
+        paths.append(RobotPath(edge=edge, enter=enter, leave=leave))
     return attrs.evolve(result, plan=Plan(paths=tuple(paths)))
 
 

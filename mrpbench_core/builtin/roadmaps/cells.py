@@ -37,11 +37,11 @@ class Cells:
         """f8[V,2] metres."""
         return self.raster.centres(self.cell)
 
-    def only(self, kept: Bool) -> "Cells":
+    def only(self, mask: Bool) -> "Cells":
         """Return the cells that are `kept` bool[V] and the edges between them."""
-        number = np.cumsum(kept) - 1
-        edges = self.edges[kept[self.edges].all(axis=1)]
-        return Cells(self.raster, self.cell[kept], number[edges])
+        number = np.cumsum(mask) - 1
+        edges = self.edges[mask[self.edges].all(axis=1)]
+        return Cells(self.raster, self.cell[mask], number[edges])
 
 
 def empty_raster(low: Float, high: Float, cell_size: float) -> Occupancy:
@@ -129,11 +129,11 @@ def only_reachable(cells: Cells, place: Int) -> tuple[Cells, Int]:
     label = components(len(cells.cell), cells.edges)
     named = place[place >= 0]
     if len(named):
-        kept = np.isin(label, label[named])
+        connected = np.isin(label, label[named])
     else:
-        kept = label == np.bincount(label).argmax() if len(label) else np.empty(0, bool)
-    number = np.cumsum(kept) - 1
-    return cells.only(kept), np.where(place >= 0, number[np.maximum(place, 0)] if len(kept) else -1, -1)
+        connected = label == np.bincount(label).argmax() if len(label) else np.empty(0, bool)
+    number = np.cumsum(connected) - 1
+    return cells.only(connected), np.where(place >= 0, number[np.maximum(place, 0)] if len(connected) else -1, -1)
 
 
 def cell_roadmap(

@@ -142,8 +142,8 @@ def _lanes_of(world: World, robot: RobotModel) -> Bool:
     if robot.graph not in graph:
         known = ", ".join(map(str, np.unique(graph)))
         raise InputError(f"fleet: world {world.name!r} has no lane of graph {robot.graph}", hint=f"graphs: {known}")
-    own: Bool = graph == robot.graph
-    return own
+    lanes: Bool = graph == robot.graph
+    return lanes
 
 
 def _notes(world: World, pieces: LaneSegments, drivable: Bool, offered: Bool) -> list[str]:
@@ -170,15 +170,18 @@ def _mutexes(world: World, pieces: LaneSegments, number: Int, edges: Int) -> tup
     for name in sorted({*names, *named} - {""}):
         drawn = number[pieces.ends[np.array([names[lane] == name for lane in pieces.lane], bool)]]
         pairs = {tuple(pair) for ends in drawn.tolist() for pair in (ends, ends[::-1])}
-        own = np.array([tuple(edge) in pairs for edge in edges.tolist()], bool)
+        in_group = np.array([tuple(edge) in pairs for edge in edges.tolist()], bool)
         vertices = {int(number[pieces.vertex[index]]) for index, mutex in enumerate(named) if mutex == name} - {-1}
-        for vertex in np.unique(edges[own]).tolist():
+        for vertex in np.unique(edges[in_group]).tolist():
             touching = (edges == vertex).any(axis=1)
-            if own[touching].all() and len(np.unique(edges[touching])) > 2:
+            if in_group[touching].all() and len(np.unique(edges[touching])) > 2:
                 vertices.add(vertex)
-        if own.any() or vertices:
+        if in_group.any() or vertices:
             mutex = Resource(
-                name=name, kind="mutex", vertices=tuple(sorted(vertices)), edges=tuple(np.flatnonzero(own).tolist())
+                name=name,
+                kind="mutex",
+                vertices=tuple(sorted(vertices)),
+                edges=tuple(np.flatnonzero(in_group).tolist()),
             )
             mutexes.append(mutex)
     return tuple(mutexes)

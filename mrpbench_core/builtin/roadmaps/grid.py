@@ -45,10 +45,10 @@ class GridRoadmap(TimedRoadmap):
         """Rasterise a world of one level."""
         level = one_level(world).levels[0]
         radius = float(fleet.radii.max())
-        own = level.occupancy
-        if own is not None and (self.cell_size or _default(own, radius)) == own.cell_size:
-            cells = connect(own)
-            if 2 * radius <= own.cell_size and not solids(
+        occupancy = level.occupancy
+        if occupancy is not None and (self.cell_size or _default(occupancy, radius)) == occupancy.cell_size:
+            cells = connect(occupancy)
+            if 2 * radius <= occupancy.cell_size and not solids(
                 level
             ):  # moving between neighbours never leaves the two cells
                 return cell_roadmap(self, cells, places(cells, world), world, fleet, [])
@@ -59,9 +59,9 @@ class GridRoadmap(TimedRoadmap):
         return cell_roadmap(self, cells, place, world, fleet, [])
 
 
-def _default(own: Occupancy, radius: float) -> float:
+def _default(occupancy: Occupancy, radius: float) -> float:
     """Return the default cell size. A map made by lidar has cells smaller than robots, too many to plan on."""
-    return own.cell_size if 2 * radius <= own.cell_size else max(own.cell_size, DEFAULT_CELL_SIZE)
+    return occupancy.cell_size if 2 * radius <= occupancy.cell_size else max(occupancy.cell_size, DEFAULT_CELL_SIZE)
 
 
 def _open_raster(world: World, cell_size: float) -> Occupancy:

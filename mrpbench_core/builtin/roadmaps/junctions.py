@@ -67,8 +67,8 @@ def _merge(points: Float, tolerance: float) -> tuple[Float, Int]:
     i, j = _overlapping(points[:, 0] - tolerance / 2, points[:, 0] + tolerance / 2)
     near = np.hypot(*(points[i] - points[j]).T) < tolerance
     first = components(len(points), np.stack([i[near], j[near]], axis=1))
-    kept = first == np.arange(len(points))
-    return points[kept], (np.cumsum(kept) - 1)[first]
+    distinct = first == np.arange(len(points))
+    return points[distinct], (np.cumsum(distinct) - 1)[first]
 
 
 def _crossings(start: Float, end: Float, tolerance: float) -> Float:

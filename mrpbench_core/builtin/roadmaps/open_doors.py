@@ -37,7 +37,7 @@ def avoid_open_doors(roadmap: Roadmap, world: World, radius: float) -> tuple[Roa
             through, blocked = _blocked(operated, roadmap, radius)
             if len(blocked):
                 without = [np.delete(np.arange(len(roadmap.edges)), out) for out in (blocked, through)]
-                pairs = [_pairs(roadmap, kept) for kept in without]
+                pairs = [_pairs(roadmap, edges) for edges in without]
                 closed = pairs[1] > pairs[0]
                 notes.append(_note(operated, roadmap, blocked, closed=closed))
                 roadmap = select_edges(roadmap, without[closed])
@@ -60,14 +60,14 @@ def _blocked(operated: OperatedDoor, roadmap: Roadmap, radius: float) -> tuple[I
     # A robot holds the door while it is on these edges, which are joined by the vertices among them.
     count = len(roadmap.position)
     edge, end = np.repeat(drives, 2), roadmap.edges[drives].ravel()
-    kept = np.isin(end, stands)
-    label = components(count + len(roadmap.edges), np.stack([count + edge[kept], end[kept]], axis=1))
+    stands_there = np.isin(end, stands)
+    label = components(count + len(roadmap.edges), np.stack([count + edge[stands_there], end[stands_there]], axis=1))
     return through, blocked[np.isin(label[count + blocked], label[count + through])]
 
 
-def _pairs(roadmap: Roadmap, kept: Int) -> int:
+def _pairs(roadmap: Roadmap, edges: Int) -> int:
     """Count the connected pairs of places (without places: of vertices) on the edges `kept`."""
-    label = components(len(roadmap.position), roadmap.edges[kept])
+    label = components(len(roadmap.position), roadmap.edges[edges])
     if (roadmap.place >= 0).any():
         label = label[np.unique(roadmap.place[roadmap.place >= 0])]
     _, sizes = np.unique(label, return_counts=True)

@@ -76,10 +76,10 @@ class Random(ScenarioSource):
             taken = np.empty(0, np.int64)
             for kind in kinds:
                 label = round_trips(roadmap, kind)[places.vertex]
-                own = label == np.bincount(label, minlength=1).argmax()
+                in_main_part = label == np.bincount(label, minlength=1).argmax()
                 gap = np.hypot(*(stands[:, None] - stands[taken]).transpose(2, 0, 1))
                 free = ((gap >= room - TOLERANCE) | (places.level[:, None] != places.level[taken])).all(axis=1)
-                left = order[(own & free)[order]]
+                left = order[(in_main_part & free)[order]]
                 if not len(left):
                     graph = models[kind].graph
                     raise InputError(

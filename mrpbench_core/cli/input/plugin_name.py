@@ -31,7 +31,7 @@ def resolve(name: str) -> tuple[type[Component], str]:
         return KINDS[kind], rest
     offers = [provider for provider in installed() if provider.group != HOOKS]
     if kind in {provider.kind for provider in offers} and rest:  # a kind that some plugin defines
-        return _own_kind(kind, rest), rest
+        return _foreign_kind(kind, rest), rest
     if is_local(name):
         cls = load_local(name, Path.cwd())
         if not isinstance(cls, type) or not issubclass(cls, Component) or not hasattr(cls, "group"):
@@ -47,7 +47,7 @@ def resolve(name: str) -> tuple[type[Component], str]:
         hint = remedy(name.partition("@")[0]) or did_you_mean(name, known, "`mrpbench plugins` lists what is installed")
         raise InputError(f"no plugin is called {name!r}", hint=hint)
     (matching_kind,) = kinds
-    return KINDS.get(matching_kind) or _own_kind(matching_kind, name), name
+    return KINDS.get(matching_kind) or _foreign_kind(matching_kind, name), name
 
 
 def hook_named(name: str) -> Provider | None:
@@ -69,7 +69,7 @@ def hook_named(name: str) -> Provider | None:
     return hook if asked or not others else None
 
 
-def _own_kind(kind: str, name: str) -> type[Component]:
+def _foreign_kind(kind: str, name: str) -> type[Component]:
     """Return the class of a kind that a plugin defines."""
     for provider in installed():
         if provider.kind == kind and provider.name == name.partition("@")[0]:

@@ -75,9 +75,9 @@ def contents(plugin: Plugin) -> dict[str, str]:
 def _requires(plugin: Plugin) -> str:
     """The requirements as lines of a TOML list, in alphabetical order."""
     imported = [requirement for name, requirement in _LIBRARIES.items() if f"import {name}" in plugin.module]
-    own = ["mrpbench-core", "mrpbench-standard"] if plugin.facts.standard else ["mrpbench-core"]
+    ours = ["mrpbench-core", "mrpbench-standard"] if plugin.facts.standard else ["mrpbench-core"]
     versions = _filled(">=$version,<$next_version", plugin.placeholders)
-    lines = sorted([*imported, *(name + versions for name in own)])
+    lines = sorted([*imported, *(name + versions for name in ours)])
     return "\n".join(f'    "{line}",' for line in lines)
 
 

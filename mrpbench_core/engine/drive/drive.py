@@ -16,7 +16,7 @@ from mrpbench_core.engine.stage import RunEnded, RunInputs
 from mrpbench_core.files.codec import decode
 from mrpbench_core.files.printing import printable
 from mrpbench_core.model.runs.instance import Instance
-from mrpbench_core.referee.verdict import Ending
+from mrpbench_core.referee.verdict import Failure
 from mrpbench_core.store.instances import inlined_array
 
 
@@ -24,7 +24,7 @@ from mrpbench_core.store.instances import inlined_array
 class Claims:
     """What the process of a run says of it beside the recording."""
 
-    ending: Ending | None = None
+    failure: Failure | None = None
     """None: it succeeded."""
     recorded: bool = False
     """There is a recording."""
@@ -71,5 +71,5 @@ def drive(inputs: RunInputs, instance: Instance) -> Claims:
         if ended is not None:
             raise ended
     except RunEnded as ended:
-        claims.ending = attrs.evolve(ended.ending, message=printable(str(ended)))
+        claims.failure = attrs.evolve(ended.failure, message=printable(str(ended)))
     return claims

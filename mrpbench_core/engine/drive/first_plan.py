@@ -12,8 +12,7 @@ from mrpbench_core.engine.drive.plan import LATE_S, budget_of, call_planner
 from mrpbench_core.engine.drive.tasks import places_of, start_stream
 from mrpbench_core.engine.execution.replanning import replanning_fault
 from mrpbench_core.engine.stage import RunEnded, RunInputs
-from mrpbench_core.model.planning.plan import Path as RobotPath
-from mrpbench_core.model.planning.plan import Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import Plan, PlanResult, PlanStatus, RobotPath
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.model.runs.instance import Instance
 from mrpbench_core.model.runs.status import RunStatus, Stage

@@ -10,7 +10,7 @@ from typing import Literal
 import attrs
 import numpy as np
 
-from mrpbench_core.engine.execution.taken import Neighbourhoods, Taken
+from mrpbench_core.engine.execution.resting_places import Neighbourhoods, RestingPlaces
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.planning.problem import Goals, GoalSet, Problem
 from mrpbench_core.model.planning.type2_edges import Moves
@@ -93,7 +93,7 @@ class Places:
             stays: bool[n] robots that cannot go on from there.
         """
         robots = len(self._problem)
-        taken = Taken(self._near)
+        taken = RestingPlaces(self._near)
         for robot in np.flatnonzero(stays).tolist():
             taken.add(robot, int(head[robot]))
         chosen: list[Errands] = [()] * robots
@@ -119,7 +119,7 @@ class Places:
             goals[end.robot] = (*goals[end.robot][:-1], self._choice(end, taken))
         return Destinations(goals=tuple(goals), yaw=yaw, errands=tuple(chosen))
 
-    def _with_room(self, errands: Sequence[Errand], taken: Taken) -> tuple[Sequence[Errand], int]:
+    def _with_room(self, errands: Sequence[Errand], taken: RestingPlaces) -> tuple[Sequence[Errand], int]:
         """Of a robot's errands, the leading ones at the last of which it may rest, and where it does.
 
         That is the nearest place with room. If robots may share goals and no place has room, it is the nearest of those
@@ -134,7 +134,7 @@ class Places:
                 return errands[:last], min(errand.yaws, key=taken.count)
         return (), -1
 
-    def _choice(self, errand: Errand, taken: Taken) -> GoalSet:
+    def _choice(self, errand: Errand, taken: RestingPlaces) -> GoalSet:
         """The places among which a planner may choose: that of the robot, and those which no other one needs.
 
         Whatever it chooses for some robots, each other robot still has its own place.
@@ -142,7 +142,7 @@ class Places:
         own = taken.vertex[errand.robot]
         return tuple(it for it in errand.yaws if it == own or taken.leaves(errand.robot, it))
 
-    def _room(self, robot: int, head: int, taken: Taken, attempt: int) -> GoalSet:
+    def _room(self, robot: int, head: int, taken: RestingPlaces, attempt: int) -> GoalSet:
         """Where a robot without an errand may stand."""
         label = self._labels[int(self._problem.profile[robot])]
         able = taken.free(robot) & (label == label[head]) & ~self._kept_free

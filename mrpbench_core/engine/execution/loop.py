@@ -14,8 +14,8 @@ from mrpbench_core.engine.execution.arrivals import REST, Arrivals
 from mrpbench_core.engine.execution.control_loop import ControlLoop, ExecutionResult
 from mrpbench_core.engine.execution.cutting import DrivenSegments, shifted
 from mrpbench_core.engine.execution.destinations import heads
-from mrpbench_core.engine.execution.ending import Ending
 from mrpbench_core.engine.execution.facility_manager import FacilityManager
+from mrpbench_core.engine.execution.failure_reasons import FailureReasons
 from mrpbench_core.engine.execution.loop_inputs import LoopInputs
 from mrpbench_core.engine.execution.observed_controller import observed
 from mrpbench_core.engine.execution.reactions import Reactions
@@ -266,7 +266,7 @@ class ExecutionLoop(ControlLoop):
         """Why each robot did not arrive."""
         inputs = self._inputs
         gave_up = np.flatnonzero(self._motion.mode == ABORTED).tolist()
-        return Ending(
+        return FailureReasons(
             problem=inputs.replanner.problem,
             plan=inputs.replanner.plan,
             names=inputs.context.fleet.names,

@@ -97,7 +97,7 @@ class ScheduleLoop(ControlLoop):
             return None
         unarrived = {}
         if self._faults and self._single is not None:
-            unarrived = self._single.ending(self._arrived).reasons()
+            unarrived = self._single.failure_reasons(self._arrived).reasons()
         return ExecutionResult(succeeded=bool(self._arrived.all()), simulated_s=self._now, unarrived=unarrived)
 
     def _stands_still(self) -> bool:

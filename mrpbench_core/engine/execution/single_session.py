@@ -3,7 +3,7 @@
 import numpy as np
 
 from mrpbench_core.engine.contract_checks import ContractChecks
-from mrpbench_core.engine.execution.ending import Ending
+from mrpbench_core.engine.execution.failure_reasons import FailureReasons
 from mrpbench_core.engine.execution.faults import FaultState
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.resources import PlannedResources
@@ -87,10 +87,10 @@ class SingleSession:
         self.resources.assign(now, self.orders.requests, self._faults.broken)
         return self._batch
 
-    def ending(self, arrived: Bool) -> Ending:
+    def failure_reasons(self, arrived: Bool) -> FailureReasons:
         """The fleet at the end, where robots that have `arrived` bool[n] do not explain themselves."""
         context = self._schedule.context
-        return Ending(
+        return FailureReasons(
             problem=context.problem,
             plan=self._schedule.plan,
             names=context.fleet.names,

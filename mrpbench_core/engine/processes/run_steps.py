@@ -60,13 +60,13 @@ class _Steps:
 
     def __call__(self, step: str, plugins: str) -> Message:
         job, config = self._job, self._job["parcel"]["config"]
-        told = {name: value for name, value in job.items() if name not in _LEFT_OUT[step]}
+        request = {name: value for name, value in job.items() if name not in _LEFT_OUT[step]}
         if step in _NEEDED:
-            told["parcel"] = {**job["parcel"], "config": {name: config[name] for name in _NEEDED[step]}}
+            request["parcel"] = {**job["parcel"], "config": {name: config[name] for name in _NEEDED[step]}}
         if step == "drive":  # metrics are imported where they measure
-            told["parcel"] = {**job["parcel"], "config": {**config, "metrics": []}}
+            request["parcel"] = {**job["parcel"], "config": {**config, "metrics": []}}
         left = max(0.0, self._ends - time.monotonic())
-        return self._ask({**told, "step": step, "wall_s": left}, plugins)
+        return self._ask({**request, "step": step, "wall_s": left}, plugins)
 
 
 def _timing(answer: Message, limit_s: float) -> Message:

@@ -35,7 +35,7 @@ from mrpbench_core.plugins.hooks import Hooks
 from mrpbench_core.plugins.provenance import title
 from mrpbench_core.referee.asked import Asked
 from mrpbench_core.referee.measuring import measure
-from mrpbench_core.referee.verdict import Ending, finished_run
+from mrpbench_core.referee.verdict import Failure, finished_run
 from mrpbench_core.store.instances import InstanceFolder
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
@@ -142,8 +142,8 @@ def _judge(job: Job, channel: Channel, state: State) -> Answer:
         claims = Claims.of_message(job["claims"])
     except ValueError as error:
         message = f"what the process of the run says of it has another form: {error}"
-        ending = Ending(status=RunStatus.CONTRACT_BROKEN, stage=Stage.METRICS, message=message)
-        claims = Claims(ending=ending)
+        failure = Failure(status=RunStatus.CONTRACT_BROKEN, stage=Stage.METRICS, message=message)
+        claims = Claims(failure=failure)
     record = record_of(asked, prepared, claims, paths, metrics, state.folder(paths.instances))
     keep(record, paths, job["keep"])
     return {"record": jsonable(record.message())}

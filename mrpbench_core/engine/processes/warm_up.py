@@ -15,8 +15,7 @@ from mrpbench_core.api.world import WorldSource
 from mrpbench_core.config.items import Location, from_data
 from mrpbench_core.config.structure import Structure
 from mrpbench_core.engine.run import execute
-from mrpbench_core.model.planning.plan import Budget, Plan, PlanResult, PlanStatus
-from mrpbench_core.model.planning.plan import Path as RobotPath
+from mrpbench_core.model.planning.plan import Budget, Plan, PlanResult, PlanStatus, RobotPath
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.worlds.occupancy import Occupancy
 from mrpbench_core.model.worlds.world import Level, World

@@ -113,8 +113,8 @@ def describe(error: BaseException, config: RunConfig | None = None) -> str:
     except BaseException:  # noqa: BLE001 - which is code of the plugin, too
         text = ""
     frames = traceback.extract_tb(error.__traceback__)
-    own = str(Path(__file__).parents[2]), "<"  # attrs compiles without a file
-    outside = [frame for frame in frames if not frame.filename.startswith(own)]
+    inside = str(Path(__file__).parents[2]), "<"  # attrs compiles without a file
+    outside = [frame for frame in frames if not frame.filename.startswith(inside)]
     place = next(reversed(outside or frames[-1:]), None)
     owner = None if config is None else owner_of(error, config)
     of = "" if owner is None else f", in the {printable(title(owner))}"

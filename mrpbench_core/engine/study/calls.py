@@ -139,11 +139,11 @@ def _fault(outcome: Any, job: Job) -> str | None:
 
 def _file_fault(record: RunRecord, job: Job) -> str | None:
     """Return which file a record names that is not the run's, or is not there."""
-    own = {"recordings": job.paths.recording, "exports": job.paths.exports}
+    folders = {"recordings": job.paths.recording, "exports": job.paths.exports}
     for line in record.files:
         match = _SUM.fullmatch(line)
         part, _, rest = match["name"].partition("/") if match else ("", "", "")
-        place = own.get(part)
+        place = folders.get(part)
         if place is None or ".." in rest.split("/") or rest.split("/")[0] != place.name:
             return f"a file of something else: {line!r:.100}"
         if not (place.parent / rest).is_file():

@@ -16,8 +16,8 @@ def read_study(source: Path | str | Mapping[str, Any], overrides: Sequence[str] 
     Raises:
         InputErrors, InputError: what is wrong with it; or a plugin ended the process or did not return.
     """
-    given = from_data(source, Location()).data if isinstance(source, Mapping) else str(source)
-    packed = in_worker("the configuration cannot be read", packed_study, given, list(overrides))
+    data = from_data(source, Location()).data if isinstance(source, Mapping) else str(source)
+    packed = in_worker("the configuration cannot be read", packed_study, data, list(overrides))
     try:
         return unpack_study(packed)
     except (KeyError, TypeError, ValueError, IndexError) as error:

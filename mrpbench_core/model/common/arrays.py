@@ -25,8 +25,8 @@ def frozen_array(values: ArrayLike, dtype: DTypeLike, columns: int | None = None
     Raises:
         ValueError: the number of columns differs, or `dtype` is an integer type and some value does not fit it.
     """
-    given, wanted = np.asarray(values), np.dtype(dtype)
-    array = _frozen(given) if given.dtype == wanted else _converted(given, wanted)
+    source, wanted = np.asarray(values), np.dtype(dtype)
+    array = _frozen(source) if source.dtype == wanted else _converted(source, wanted)
     if columns is not None and array.size == 0:
         array = array.reshape(0, columns)
     elif columns is not None and array.shape[1:] != (columns,):  # reshaping would hide swapped rows and columns
@@ -34,12 +34,12 @@ def frozen_array(values: ArrayLike, dtype: DTypeLike, columns: int | None = None
     return read_only(array)
 
 
-def _frozen(given: NDArray[Any]) -> NDArray[Any]:
+def _frozen(source: NDArray[Any]) -> NDArray[Any]:
     """Return a read-only copy, or `given` if it is one already."""
-    flags = given.flags
+    flags = source.flags
     if flags.writeable or not (flags.c_contiguous and flags.owndata):
-        return read_only(given.copy())
-    return given
+        return read_only(source.copy())
+    return source
 
 
 def read_only(array: NDArray[Any]) -> NDArray[Any]:
@@ -48,12 +48,12 @@ def read_only(array: NDArray[Any]) -> NDArray[Any]:
     return array
 
 
-def _converted(given: NDArray[Any], wanted: np.dtype[Any]) -> NDArray[Any]:
+def _converted(source: NDArray[Any], wanted: np.dtype[Any]) -> NDArray[Any]:
     with np.errstate(invalid="ignore"):
-        array = np.array(given, dtype=wanted, order="C")
-    if wanted.kind in "iu" and given.dtype.kind in "iuf" and (array != given).any():
+        array = np.array(source, dtype=wanted, order="C")
+    if wanted.kind in "iu" and source.dtype.kind in "iuf" and (array != source).any():
         # NumPy would truncate or wrap silently.
-        raise ValueError(f"expected whole numbers that fit in {wanted}, got {given[array != given][0]}")
+        raise ValueError(f"expected whole numbers that fit in {wanted}, got {source[array != source][0]}")
     return array
 
 

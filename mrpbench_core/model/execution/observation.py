@@ -103,23 +103,23 @@ class Observations:
     """f8[n,3] estimated poses of all robots."""
 
     @classmethod
-    def alone(cls, seen: Observation) -> Self:
+    def alone(cls, observation: Observation) -> Self:
         """Return one row for robot 0."""
-        points = seen.path[1:] if len(seen.path) > 1 else seen.path
+        points = observation.path[1:] if len(observation.path) > 1 else observation.path
         return cls(
-            now=seen.now,
+            now=observation.now,
             robot=np.zeros(1, np.int64),
-            pose=seen.pose[None],
-            twist=seen.twist[None],
-            foot=seen.path[:1],
+            pose=observation.pose[None],
+            twist=observation.twist[None],
+            foot=observation.path[:1],
             points=points,
             begin=np.zeros(1, np.int64),
             end=np.array([len(points)]),
-            yaw=np.array([seen.yaw]),
-            speed=np.array([seen.speed]),
-            tolerance=seen.tolerance,
-            fleet_pose=seen.pose[None],
-            scans=() if seen.scan is None else (attrs.evolve(seen.scan, robot=np.zeros(1, np.int32)),),
+            yaw=np.array([observation.yaw]),
+            speed=np.array([observation.speed]),
+            tolerance=observation.tolerance,
+            fleet_pose=observation.pose[None],
+            scans=() if observation.scan is None else (attrs.evolve(observation.scan, robot=np.zeros(1, np.int32)),),
         )
 
     def path(self, row: int) -> Float:

@@ -15,7 +15,9 @@ class ScanSchedule:
         for index, robot in enumerate(fleet.robots):
             if robot.lidar is not None:
                 robots.setdefault(robot.lidar, []).append(index)
-        self._turns = {lidar: _turns(own, max(1, round(1 / (lidar.rate * period)))) for lidar, own in robots.items()}
+        self._turns = {
+            lidar: _turns(members, max(1, round(1 / (lidar.rate * period)))) for lidar, members in robots.items()
+        }
 
     @property
     def lidars(self) -> tuple[Lidar, ...]:

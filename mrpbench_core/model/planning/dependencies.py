@@ -69,12 +69,12 @@ def _rotations(moves: Moves, edges: Type2Edges) -> list[tuple[int, ...]]:
     follows = ~edges.completed & (moves.enter[edges.before] >= moves.enter[edges.after])
     follows &= moves.tail[edges.before] == moves.head[edges.after]
     leader = dict(zip(edges.after[follows].tolist(), edges.before[follows].tolist(), strict=True))
-    rotations, seen = [], set[int]()
+    rotations, visited = [], set[int]()
     for start in leader:
         trail: dict[int, int] = {}
         move = start
-        while move in leader and move not in seen:
-            seen.add(move)
+        while move in leader and move not in visited:
+            visited.add(move)
             trail[move] = len(trail)
             move = leader[move]
         if move in trail:

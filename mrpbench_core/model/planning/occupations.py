@@ -40,13 +40,13 @@ def _occupations(problem: Problem, moves: Moves, resource: Resource) -> Iterator
     edges, vertices = np.zeros(len(problem.roadmap.edges), bool), np.zeros(len(problem.roadmap.position), bool)
     edges[list(resource.edges)], vertices[list(resource.vertices)] = True, True
     for robot, start in enumerate(problem.start.tolist()):
-        own = range(moves.first[robot], moves.first[robot + 1])
-        if not own and problem.rules.at_goal == "disappear":
+        segments = range(moves.first[robot], moves.first[robot + 1])
+        if not segments and problem.rules.at_goal == "disappear":
             continue
         # Vertices and edges alternate: element 0 is the start, 2 i + 1 the edge of move i, 2 i + 2 its end.
-        inside: Bool = np.zeros(2 * len(own) + 1, bool)
+        inside: Bool = np.zeros(2 * len(segments) + 1, bool)
         inside[0] = vertices[start]
-        inside[1::2], inside[2::2] = edges[moves.edge[own]], vertices[moves.head[own]]
+        inside[1::2], inside[2::2] = edges[moves.edge[segments]], vertices[moves.head[segments]]
         change = np.flatnonzero(np.diff(np.concatenate([[False], inside, [False]]).astype(np.int8)))
         for begin, end in change.reshape(-1, 2).tolist():
             yield _occupation(problem, moves, resource, robot, begin, end - 1)
@@ -82,15 +82,15 @@ def resource_edges(problem: Problem, occupations: list[ResourceOccupation]) -> T
     """
     before, after, completed = [], [], []
     for resource in problem.roadmap.resources:
-        own = sorted(
+        in_order = sorted(
             (occupation for occupation in occupations if occupation.resource == resource.name),
             key=lambda occupation: occupation.begin,
         )
-        for index, later in enumerate(own):
+        for index, later in enumerate(in_order):
             if later.first < 0:
                 continue
             # If the capacity is 1, the previous robot has waited for those before it.
-            for earlier in own[max(0, index - 1) if resource.capacity == 1 else 0 : index]:
+            for earlier in in_order[max(0, index - 1) if resource.capacity == 1 else 0 : index]:
                 if earlier.robot != later.robot and earlier.end < later.begin:
                     before.append(earlier.last)
                     after.append(later.first)

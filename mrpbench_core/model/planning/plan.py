@@ -12,7 +12,7 @@ from mrpbench_core.model.planning.roadmap import Roadmap
 
 
 @attrs.frozen(kw_only=True)
-class Path:
+class RobotPath:
     """One robot's consecutive segments: moves along an edge and waits at a vertex.
 
     Segment s + 1 enters when segment s leaves. `leave - enter >= duration` of the edge; a wait may have any length.
@@ -46,36 +46,39 @@ class Path:
         return int(self.leave[moves[-1]]) if len(moves) else 0
 
 
+Path = RobotPath  # its name until 0.3: plugins may still import it
+
+
 @attrs.frozen(kw_only=True)
-class Paths(FlatSequence[Path]):
+class Paths(FlatSequence[RobotPath]):
     """The paths of all robots."""
 
     first: Int = array("i8")
     """i8[n+1]: the segments of robot i are `first[i]:first[i + 1]`."""
     edge: Int32 = array("i4")
-    """i4[m] as in `Path`, like the other columns."""
+    """i4[m] as in `RobotPath`, like the other columns."""
     enter: Int = array("i8")
     leave: Int = array("i8")
 
     @classmethod
-    def of(cls, paths: Iterable[Path]) -> "Paths":
+    def of(cls, paths: Iterable[RobotPath]) -> "Paths":
         """Join paths that have as many edges as times; `Paths` are returned as they are."""
         if isinstance(paths, Paths):
             return paths
-        given = tuple(paths)
+        robot_paths = tuple(paths)
         return cls(
-            first=firsts(map(len, given)),
-            edge=joined((path.edge for path in given), "i4"),
-            enter=joined((path.enter for path in given), "i8"),
-            leave=joined((path.leave for path in given), "i8"),
+            first=firsts(map(len, robot_paths)),
+            edge=joined((path.edge for path in robot_paths), "i4"),
+            enter=joined((path.enter for path in robot_paths), "i8"),
+            leave=joined((path.leave for path in robot_paths), "i8"),
         )
 
     def __len__(self) -> int:
         return len(self.first) - 1
 
-    def _item(self, index: int) -> Path:
+    def _item(self, index: int) -> RobotPath:
         here = rows(self.first, index)
-        return Path(edge=self.edge[here], enter=self.enter[here], leave=self.leave[here])
+        return RobotPath(edge=self.edge[here], enter=self.enter[here], leave=self.leave[here])
 
     @property
     def size(self) -> Int:
@@ -95,9 +98,9 @@ class Paths(FlatSequence[Path]):
     def part(self, begin: Int | Int32, end: Int | Int32) -> "Paths":
         """The segments from `begin` i8[n] until before `end` i8[n] of each path; a path may have fewer."""
         robot, segment = self.robot, self.segment
-        kept = (begin[robot] <= segment) & (segment < end[robot])
-        first = np.searchsorted(robot[kept], np.arange(len(self) + 1))
-        return Paths(first=first, edge=self.edge[kept], enter=self.enter[kept], leave=self.leave[kept])
+        mask = (begin[robot] <= segment) & (segment < end[robot])
+        first = np.searchsorted(robot[mask], np.arange(len(self) + 1))
+        return Paths(first=first, edge=self.edge[mask], enter=self.enter[mask], leave=self.leave[mask])
 
     def later(self, ticks: int) -> "Paths":
         """The paths at other times: all so many ticks later, or earlier if they are negative."""
@@ -135,12 +138,12 @@ def waits(enter: Int, leave: Int | int) -> Paths:
     return Paths(first=first, edge=np.full(len(ends), -1), enter=enter[some], leave=ends)
 
 
-def flat(paths: Sequence[Path]) -> Sequence[Path]:
+def flat(paths: Sequence[RobotPath]) -> Sequence[RobotPath]:
     """Join paths into `Paths`. What does not fit together stays as it is, so that checks can say what is wrong."""
     if type(paths) is Paths or not isinstance(paths, tuple | list):
         return paths
     sound = all(
-        type(path) is Path and path.edge.ndim == 1 and path.edge.shape == path.enter.shape == path.leave.shape
+        type(path) is RobotPath and path.edge.ndim == 1 and path.edge.shape == path.enter.shape == path.leave.shape
         for path in paths
     )
     return Paths.of(paths) if sound else paths
@@ -150,7 +153,7 @@ def flat(paths: Sequence[Path]) -> Sequence[Path]:
 class Plan:
     """One path per robot (the paper's *schedule*)."""
 
-    paths: Sequence[Path] = attrs.field(converter=flat)
+    paths: Sequence[RobotPath] = attrs.field(converter=flat)
     """n paths, held as `Paths`."""
 
     @property

@@ -7,7 +7,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Float, Int, Int32, array
-from mrpbench_core.model.planning.plan import Path, Paths, flat
+from mrpbench_core.model.planning.plan import Paths, RobotPath, flat
 from mrpbench_core.model.planning.roadmap import Roadmap
 
 GoalSet = tuple[int, ...]
@@ -69,9 +69,9 @@ class Problem:
     """i8[n] ticks, also below 0: the path of a robot begins then, and it occupies nothing before; empty: all at 0."""
     goals: Goals
     """goals[robot] = the goal sets to visit in order; the robot ends at the last. Empty: it may end anywhere."""
-    commitments: Sequence[Path] = attrs.field(default=(), converter=flat)
+    commitments: Sequence[RobotPath] = attrs.field(default=(), converter=flat)
     """Released prefixes, one per robot (possibly empty), with which a new plan must begin; () = none."""
-    remaining: Sequence[Path] = attrs.field(default=(), converter=flat)
+    remaining: Sequence[RobotPath] = attrs.field(default=(), converter=flat)
     """What follows the commitments in the plan in force, one per robot, where the planner `reads_remaining`; () = none.
     Commitments, each continued by it, are a plan without conflicts. Nothing has to be kept of it."""
     rules: Rules = Rules()

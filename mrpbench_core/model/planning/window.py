@@ -83,7 +83,7 @@ def _closed(problem: Problem, moves: Moves, end: Int, committed: Int, horizon: i
         end = np.maximum(end, fixed)
 
 
-def _chosen(moves: Moves, kept: Bool) -> Moves:
+def _chosen(moves: Moves, mask: Bool) -> Moves:
     robots = len(moves.first) - 1
-    columns = [column[kept] for column in moves[1:]]
+    columns = [column[mask] for column in moves[1:]]
     return Moves(np.searchsorted(columns[0], np.arange(robots + 1)), *columns)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.execution.route import Route
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.runs.run import Loaders, RunContext
 
 COLUMNS = "waypoint", "level", "speed", "edge", "leave"
@@ -54,11 +54,13 @@ class RouteHistory:
     @property
     def complete(self) -> bool:
         """True if every plan has a route for every robot."""
-        return bool((np.diff(self._bounds) == len(self._first)).all()) and all(len(own["edge"]) for own in self._first)
+        return bool((np.diff(self._bounds) == len(self._first)).all()) and all(
+            len(routes["edge"]) for routes in self._first
+        )
 
     def count(self) -> int:
         """Number of waypoints of all plans together, each from its beginning."""
-        total = sum(len(own["edge"]) for own in self._first)
+        total = sum(len(routes["edge"]) for routes in self._first)
         pieces = 0 if not len(self._plans) else int((self._at + self._end - self._begin).sum())
         return total + pieces
 
@@ -86,7 +88,10 @@ class RouteHistory:
             return self._first
         by_robot = np.argsort(self._robot, kind="stable")
         bounds = np.searchsorted(self._robot[by_robot], np.arange(len(self._first) + 1))
-        return [self._joined(own, by_robot[slice(*bounds[robot : robot + 2])]) for robot, own in enumerate(self._first)]
+        return [
+            self._joined(routes, by_robot[slice(*bounds[robot : robot + 2])])
+            for robot, routes in enumerate(self._first)
+        ]
 
     def _joined(self, whole: dict[str, NDArray[Any]], pieces: Int) -> dict[str, NDArray[Any]]:
         """Continue a whole route with later pieces; each counts up to the first waypoint of any piece after it."""
@@ -105,7 +110,7 @@ def _columns(context: RunContext, robot: int) -> dict[str, NDArray[Any]]:
     route, plan = context.routes[robot], context.result.plan
     waits = len(route.waypoint) - 1
     still = np.zeros(waits, np.int64)
-    path = Path(edge=still.astype(np.int32) - 1, enter=still, leave=still) if plan is None else plan.paths[robot]
+    path = RobotPath(edge=still.astype(np.int32) - 1, enter=still, leave=still) if plan is None else plan.paths[robot]
     return {
         "waypoint": route.waypoint,
         "level": route.level,
@@ -119,9 +124,9 @@ def _route(columns: dict[str, NDArray[Any]]) -> Route:
     return Route(waypoint=columns["waypoint"], level=columns["level"], speed=columns["speed"][1:])
 
 
-def _path(columns: dict[str, NDArray[Any]]) -> Path:
+def _path(columns: dict[str, NDArray[Any]]) -> RobotPath:
     leave = columns["leave"]
-    return Path(edge=columns["edge"][1:], enter=leave[:-1], leave=leave[1:])
+    return RobotPath(edge=columns["edge"][1:], enter=leave[:-1], leave=leave[1:])
 
 
 def with_latest_routes(context: RunContext, channels: Loaders) -> RunContext:

@@ -66,7 +66,7 @@ def _end(waypoint: Float, level: Int16) -> int:
     return int(np.flatnonzero(np.append(True, elsewhere))[-1])
 
 
-def _straightened(waypoint: Float, kept: Bool) -> Float:
+def _straightened(waypoint: Float, mask: Bool) -> Float:
     """Move the waypoints f8[k,3] that are not kept onto the straight line between those that are, at even distances.
 
     So segments keep their indices, and a robot that follows the route crosses the lines that were left out.
@@ -74,8 +74,8 @@ def _straightened(waypoint: Float, kept: Bool) -> Float:
     index = np.arange(len(waypoint))
     moved = waypoint.copy()
     for axis in (0, 1):
-        moved[:, axis] = np.interp(index, index[kept], waypoint[kept, axis])
-    moved[~kept, 2] = np.nan
+        moved[:, axis] = np.interp(index, index[mask], waypoint[mask, axis])
+    moved[~mask, 2] = np.nan
     return moved
 
 

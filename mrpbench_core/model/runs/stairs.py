@@ -18,13 +18,13 @@ def without_stairs(waypoint: Float) -> Bool:
 
     The scan begins at the start: from a kept waypoint, it looks at the next but one.
     """
-    kept: Bool = np.ones(len(waypoint), bool)
+    mask: Bool = np.ones(len(waypoint), bool)
     at = 0
     while at + 2 < len(waypoint):
         across, up = np.abs(waypoint[at + 2] - waypoint[at])
         if abs(across - up) <= _EQUAL:
-            kept[at + 1] = False
+            mask[at + 1] = False
             at += 2
         else:
             at += 1
-    return kept
+    return mask

@@ -67,7 +67,7 @@ def _of_plan(problem: Problem, plan: Plan, time: Float, reached: Int) -> list[Sw
 def _first(reached: Int, robot: Int, count: Int) -> Int:
     """The first sample i8[k] at which each `robot` i8[k] has completed `count` i8[k] segments; T if there is none."""
     first = np.full(len(robot), len(reached))
-    for own in np.unique(robot).tolist():
-        rows = robot == own
-        first[rows] = np.searchsorted(reached[:, own], count[rows])
+    for one in np.unique(robot).tolist():
+        rows = robot == one
+        first[rows] = np.searchsorted(reached[:, one], count[rows])
     return first

@@ -176,8 +176,8 @@ class _Explanation:
         """Name the robot that was let onto the next waypoint and has not cleared it."""
         visits = defaultdict(list)
         places = [_places(route) for route in routes]
-        for other, own in enumerate(places):
-            for index, place in enumerate(own):
+        for other, held_places in enumerate(places):
+            for index, place in enumerate(held_places):
                 visits[place].append((other, index))
         released, cleared = self.channels["released"], self.channels["cleared"]
         for robot, count, samples in self._open(window):

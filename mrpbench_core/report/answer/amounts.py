@@ -51,18 +51,18 @@ def largest(ranking: Ranking, places: Sequence[Place]) -> str | None:
 def reading(ranking: Ranking) -> str:
     """Say over what the means are, which way is better, and which differences do not matter."""
     column, estimates = ranking.column, [place.estimate for place in ranking.places if place.estimate is not None]
-    told = f"{'Share' if ranking.is_rate else 'Mean'} over {ranking.ranked} {ranking.unit}"
-    told += " [95 % interval]." if any(estimate.has_interval for estimate in estimates) else "."
-    told += {1: " More is better.", -1: " Less is better."}.get(direction(column), "")
+    sentence = f"{'Share' if ranking.is_rate else 'Mean'} over {ranking.ranked} {ranking.unit}"
+    sentence += " [95 % interval]." if any(estimate.has_interval for estimate in estimates) else "."
+    sentence += {1: " More is better.", -1: " Less is better."}.get(direction(column), "")
     if column.threshold is None:
-        return f"{told} The metric states no threshold."
+        return f"{sentence} The metric states no threshold."
     least = (
         f"{100 * column.threshold:g} points"
         if ranking.is_rate
         else f"{column.threshold:g} {_SPOKEN.get(column.unit, column.unit)}".strip()
     )
     share = f" or {100 * column.threshold_share:g} %" if column.threshold_share else ""
-    return f"{told} Differences below {least}{share} do not matter (grey band)."
+    return f"{sentence} Differences below {least}{share} do not matter (grey band)."
 
 
 def scale(ranking: Ranking, largest: float) -> tuple[float, str]:

@@ -105,8 +105,8 @@ def _contrast(report: Report, part: SettingAnswer, ranking: Ranking) -> Contrast
         return None
     first, *others = placed
     pairs = []
-    for name, own, runs in others:
-        _, here, there = np.intersect1d(first[1], own, assume_unique=True, return_indices=True)
+    for name, units_of_other, runs in others:
+        _, here, there = np.intersect1d(first[1], units_of_other, assume_unique=True, return_indices=True)
         pairs += [(values[b] - values[a], a, b, name) for a, b in zip(first[2][here], runs[there], strict=True)]
     pairs.sort(key=lambda pair: -pair[0])
     for step, one, other, name in pairs[:TRIED]:
@@ -121,8 +121,8 @@ def _by_unit(part: SettingAnswer, group: int, values: Float, units: Int) -> tupl
     """Units of a group with a value, and the first run of each."""
     counted = part.setting.groups[group].counted
     having = counted[np.isfinite(values[counted])]
-    own, at = np.unique(units[having], return_index=True)
-    return own, having[at]
+    distinct, at = np.unique(units[having], return_index=True)
+    return distinct, having[at]
 
 
 def _recorded(report: Report, runs: Iterable[int]) -> Iterator[int]:

@@ -76,14 +76,14 @@ def _faults(rankings: Rankings, names: Sequence[str]) -> dict[str, str]:
 
 
 def _ahead(good: Sequence[str], faults: Sequence[str]) -> str:
-    told = [
+    clauses = [
         faults[0],
         *(fault.replace(f" {_WORSE}", "", 1) if _WORSE in faults[0] else fault for fault in faults[1:NAMED]),
     ]
     if len(faults) > NAMED:
-        told.append(f"{len(faults) - NAMED} more are noticeably worse in something, or lack values")
+        clauses.append(f"{len(faults) - NAMED} more are noticeably worse in something, or lack values")
     comes = f"{good[0]} comes out best" if len(good) == 1 else f"{listed(good)} come out ahead"
-    return f"{comes}: {', '.join(told)}."
+    return f"{comes}: {', '.join(clauses)}."
 
 
 def _undecided(rankings: Rankings, who: str, units: str, count: int) -> Headline:
@@ -106,10 +106,10 @@ def _undecided(rankings: Rankings, who: str, units: str, count: int) -> Headline
     advice = _MORE_SCENARIOS if open_ else ""
     if not alike and not differing:
         return Headline(f"There is no clear difference between {who} in {units}.", advice)
-    told = [f"practically the same in {listed(alike)}"] if alike else []
-    told += [f"different in {listed(differing)}, but not clearly better or worse"] if differing else []
+    clauses = [f"practically the same in {listed(alike)}"] if alike else []
+    clauses += [f"different in {listed(differing)}, but not clearly better or worse"] if differing else []
     rest = f"; there is no clear difference in {listed(open_)}" if open_ else ""
-    return Headline(f"{_capital(who)} are {' and '.join(told)}{rest}.", advice)
+    return Headline(f"{_capital(who)} are {' and '.join(clauses)}{rest}.", advice)
 
 
 _MORE_SCENARIOS = (

@@ -56,7 +56,7 @@ def find_topics(runs: Runs, compared: Sequence[Column]) -> list[Topic]:
         compared: the columns that a report compares.
     """
     having = [column for column in compared if np.isfinite(runs.values[column.name]).any()]
-    topics, kind = [], _kind(runs)
+    topics, kind = [], _topic_group(runs)
     for question in get_args(Question):
         matching = [column for column in having if column.answers == question]
         # Rates and primary columns; others only if nothing else answers.
@@ -70,8 +70,8 @@ def find_topics(runs: Runs, compared: Sequence[Column]) -> list[Topic]:
         if (question == "duration" and kind == "tasks") or (question == "planning" and ranking.unit != "s"):
             title, noun = _named(ranking)  # runs with tasks over time end when they are told to
         topics.append(Topic(title=title, noun=noun, columns=(ranking, *others)))
-    own = [column for column in having if column.primary and column.answers is None]
-    return [*topics, *(Topic(title=_named(column)[0], noun=_named(column)[1], columns=(column,)) for column in own)]
+    unasked = [column for column in having if column.primary and column.answers is None]
+    return [*topics, *(Topic(title=_named(column)[0], noun=_named(column)[1], columns=(column,)) for column in unasked)]
 
 
 def has_tasks(runs: Runs) -> bool:
@@ -90,7 +90,7 @@ def _named(column: Column) -> tuple[str, str]:
     return words[0].upper() + words[1:], words
 
 
-def _kind(runs: Runs) -> str:
+def _topic_group(runs: Runs) -> str:
     if all(word(config.get("simulator", "unknown")) == "none" for config in runs.configs):
         return "plans"
     return "tasks" if has_tasks(runs) else "drives"

@@ -89,11 +89,11 @@ def rank(runs: Runs, setting: Setting, column: Column, compared: Compared) -> Ra
     """
     is_rate = column.name in runs.flags
     later = [False] * len(setting.groups) if is_rate or column.name == PAR2 else fail_more(runs, setting, column)
-    own = [group.by_unit(runs, setting.units, column.name)[0] for group in setting.groups]
-    base = _common([units for units, after in zip(own, later, strict=True) if len(units) and not after])
+    units_of_groups = [group.by_unit(runs, setting.units, column.name)[0] for group in setting.groups]
+    base = _common([units for units, after in zip(units_of_groups, later, strict=True) if len(units) and not after])
     means = [
         _mean(runs, setting, group, column, units, base if not is_rate else None)
-        for group, units in zip(setting.groups, own, strict=True)
+        for group, units in zip(setting.groups, units_of_groups, strict=True)
     ]
     places = [
         Place(
@@ -131,10 +131,10 @@ def failures(runs: Runs, group: RunGroup) -> str:
 
 
 def _mean(
-    runs: Runs, setting: Setting, group: RunGroup, column: Column, own: Int, base: Int | None
+    runs: Runs, setting: Setting, group: RunGroup, column: Column, units: Int, base: Int | None
 ) -> IntervalEstimate | None:
     """The mean over the units in `base`, or over its own units if it has none of these."""
-    if base is not None and not np.isin(own, base).any():
+    if base is not None and not np.isin(units, base).any():
         base = None
     return estimate(runs, setting, group, column.name, base)
 

@@ -20,21 +20,21 @@ def sentences(ranking: Ranking) -> list[str]:
     if first.estimate is None:
         return ["No run has a value."]
     if not others:
-        told = [f"{quantity(ranking, first.estimate)} over {_units(ranking, first.estimate.n)}."]
-        return [*told, f"Failed runs: {first.failures}."] if first.failures else told
-    told = _first(ranking, first, [place for place in others if place.estimate is not None])
-    told += _of_two(ranking, *others) if len(others) == 1 else []
+        lines = [f"{quantity(ranking, first.estimate)} over {_units(ranking, first.estimate.n)}."]
+        return [*lines, f"Failed runs: {first.failures}."] if first.failures else lines
+    lines = _first(ranking, first, [place for place in others if place.estimate is not None])
+    lines += _of_two(ranking, *others) if len(others) == 1 else []
     apart = ranking.having(Relation.WORSE, Relation.BETTER, Relation.UNRATED)
-    told += [_apart(ranking, place) for place in apart[:NAMED]]
+    lines += [_apart(ranking, place) for place in apart[:NAMED]]
     if len(apart) > NAMED:
-        told.append(f"{len(apart) - NAMED} more differ.")
+        lines.append(f"{len(apart) - NAMED} more differ.")
     if without := [place.name for place in others if place.estimate is None]:
-        told.append(f"{listed(without)} {'has' if len(without) == 1 else 'have'} no value.")
+        lines.append(f"{listed(without)} {'has' if len(without) == 1 else 'have'} no value.")
     if ranking.ranked < LEAST and not all(place.relation is Relation.IDENTICAL for place in others):
         few = "is too few" if ranking.ranked == 1 else "are too few"
         lacking = "a test" if ranking.is_rate else "intervals and tests"
-        told.append(f"{_units(ranking, ranking.ranked)} {few} for {lacking}.")
-    return told
+        lines.append(f"{_units(ranking, ranking.ranked)} {few} for {lacking}.")
+    return lines
 
 
 def exceptions(effect: Effect, within: Compared, ranking: Ranking) -> list[str]:
@@ -46,7 +46,7 @@ def exceptions(effect: Effect, within: Compared, ranking: Ranking) -> list[str]:
         ranking: of the levels of the factor.
     """
     first, *others = ranking.places
-    told = []
+    lines = []
     for rest in effect.others:
         for place in others:
             names = effect.combined[first.name, rest], effect.combined[place.name, rest]
@@ -55,8 +55,8 @@ def exceptions(effect: Effect, within: Compared, ranking: Ranking) -> list[str]:
                 continue
             here = relation(comparison if comparison.second == names[1] else turned(comparison))
             if here in (Relation.BETTER, Relation.WORSE) and here is not place.relation:
-                told.append(f"With {rest}, {place.name} is {here.value} than {first.name}.")
-    return told if len(told) <= NAMED else [*told[:NAMED], f"{len(told) - NAMED} more combinations are exceptions."]
+                lines.append(f"With {rest}, {place.name} is {here.value} than {first.name}.")
+    return lines if len(lines) <= NAMED else [*lines[:NAMED], f"{len(lines) - NAMED} more combinations are exceptions."]
 
 
 def listed(words: Sequence[str]) -> str:
@@ -87,14 +87,14 @@ def _first(ranking: Ranking, first: Place, others: Sequence[Place]) -> list[str]
         possible = largest(ranking, unknown)
         more = [f"The difference may be up to {possible}."] if possible else []
         return [f"There is no clear difference between {listed(everyone)}: {span(ranking)}.", *more]
-    told = [f"{first.name} has the best mean: {quantity(ranking, first.estimate)}."]
+    lines = [f"{first.name} has the best mean: {quantity(ranking, first.estimate)}."]
     if alike:
-        told.append(f"{listed(alike)} {'differs' if len(alike) == 1 else 'differ'} too little from it to matter.")
+        lines.append(f"{listed(alike)} {'differs' if len(alike) == 1 else 'differ'} too little from it to matter.")
     if names := [place.name for place in unknown if place.relation is Relation.OPEN]:
-        told.append(f"There is no clear difference to {listed(names)}.")
+        lines.append(f"There is no clear difference to {listed(names)}.")
     if names := [place.name for place in unknown if place.relation is Relation.NOT_COMPARED]:
-        told.append(f"{listed(names)} {_is_or_are(names)} not compared with it.")
-    return told
+        lines.append(f"{listed(names)} {_is_or_are(names)} not compared with it.")
+    return lines
 
 
 def _of_two(ranking: Ranking, place: Place) -> list[str]:

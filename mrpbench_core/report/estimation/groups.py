@@ -152,12 +152,12 @@ def differing_factors(first: Axes, second: Axes) -> list[str]:
 def _setting(runs: Runs, members: Sequence[RunGroup], axes: Axes) -> Setting:
     units, unit = runs.units([group.members for group in members])
     constant = constant_axes(members)
-    own = [{key: value for key, value in group.axes.items() if key not in constant} for group in members]
+    varying = [{key: value for key, value in group.axes.items() if key not in constant} for group in members]
     return Setting(
         name=name_axes(axes),
         axes=axes,
         groups=tuple(members),
-        names=tuple(name_axes(entry) or "all runs" for entry in own),
+        names=tuple(name_axes(entry) or "all runs" for entry in varying),
         units=units,
         unit=unit,
     )

@@ -37,8 +37,8 @@ def find_axes(configs: Sequence[dict[str, Any]], by: Sequence[str] | None = None
                 hint = did_you_mean(full, sorted(known)) or suggest(name, _varying(flat), "options that vary:")
                 raise InputError(f"--by: no run has the option {name!r}", hint=hint)
     varying = [key for key in _varying(flat) if by is None or _is_below(key, by)]
-    kept = _without_implied(varying, flat)
-    return _without_shared([{key: entry[key] for key in kept if key in entry} for entry in flat])
+    keys = _without_implied(varying, flat)
+    return _without_shared([{key: entry[key] for key in keys if key in entry} for entry in flat])
 
 
 def name_axes(axes: Axes) -> str:
@@ -149,7 +149,7 @@ def _name(block: dict[str, Any]) -> str:
 
 def _without_implied(varying: Sequence[str], flat: Sequence[Axes]) -> list[str]:
     """Leave out options that follow from the plugin that their block names, such as its defaults, or from a path."""
-    kept = []
+    keys = []
     for key in varying:
         plugins = [f"{block}.plugin" for block in _with_blocks(key)[:-1]]
         if key.endswith(".sha256"):  # of a file, which its path names
@@ -160,5 +160,5 @@ def _without_implied(varying: Sequence[str], flat: Sequence[Axes]) -> list[str]:
             if key in entry:
                 values.setdefault(repr([entry.get(name) for name in plugins]), set()).add(repr(entry[key]))
         if not plugins or any(len(options) > 1 for options in values.values()):
-            kept.append(key)
-    return kept
+            keys.append(key)
+    return keys

@@ -184,14 +184,14 @@ class _Reader:
 
         The localizer that was given the true poses is marked, in every table that names it.
         """
-        own = {key: value for key, value in config.items() if key not in NO_AXES}
+        identifying = {key: value for key, value in config.items() if key not in NO_AXES}
         if true_poses is not None:
-            own["localizer"] = (own.get("localizer") or {}) | {"plugin": f"{true_poses} (true poses)"}
-        if "limits" in own:
-            own["limits"] = {key: value for key, value in own["limits"].items() if key != "wall"}
-        number = self._configs.setdefault(msgspec.json.encode(own), len(self._configs))
+            identifying["localizer"] = (identifying.get("localizer") or {}) | {"plugin": f"{true_poses} (true poses)"}
+        if "limits" in identifying:
+            identifying["limits"] = {key: value for key, value in identifying["limits"].items() if key != "wall"}
+        number = self._configs.setdefault(msgspec.json.encode(identifying), len(self._configs))
         if number == len(self._examples):
-            self._examples.append(own)
+            self._examples.append(identifying)
         return number
 
     def runs(self) -> Runs:

@@ -81,8 +81,10 @@ def _reassigned(runs: Runs) -> str:
 
 def _true_poses(runs: Runs) -> str:
     """Return a sentence that names the localizers that were given the true poses."""
-    given = ", ".join(f"{name} in {count} of {len(runs)} runs" for name, count in sorted(runs.true_poses.items()))
-    return f" True poses were given (grant_truth) to the localizer {given}." if given else ""
+    listed_robots = ", ".join(
+        f"{name} in {count} of {len(runs)} runs" for name, count in sorted(runs.true_poses.items())
+    )
+    return f" True poses were given (grant_truth) to the localizer {listed_robots}." if listed_robots else ""
 
 
 def promises_table(runs: Runs) -> Table | None:

@@ -107,9 +107,12 @@ class AssignerConformance(ComponentConformance):
             require(
                 len(queues) == len(problem.free_in), f"{name}: {len(queues)} queues for {len(problem.free_in)} robots"
             )
-            given = [task for queue in queues for task in queue]
-            require(len(set(given)) == len(given), f"{name}: gives a task twice: {queues}")
-            require(set(given) <= set(range(len(problem.tasks))), f"{name}: gives tasks that do not exist: {queues}")
+            assigned_tasks = [task for queue in queues for task in queue]
+            require(len(set(assigned_tasks)) == len(assigned_tasks), f"{name}: gives a task twice: {queues}")
+            require(
+                set(assigned_tasks) <= set(range(len(problem.tasks))),
+                f"{name}: gives tasks that do not exist: {queues}",
+            )
             if assigner.reads_costs:
                 pairs = [(robot, task) for robot, queue in enumerate(queues) for task in queue]
                 unable = [pair for pair in pairs if not np.isfinite(problem.approach[pair])]

@@ -133,23 +133,23 @@ class ControllerConformance(ComponentConformance):
         session = self.make().start_fleet([ROBOT, ROBOT], room(), PERIOD)
         pose, twist, track, said = START[None], np.zeros((1, 2)), PathAhead(path), []
         for step in range(round(5.0 / PERIOD)):
-            seen = observations(step, pose, twist, [track])
+            observed = observations(step, pose, twist, [track])
             fleet_pose = np.array([START, START])
-            seen = attrs.evolve(seen, robot=np.array([robot]), fleet_pose=fleet_pose)
-            twist = np.nan_to_num(session.command(seen))
+            observed = attrs.evolve(observed, robot=np.array([robot]), fleet_pose=fleet_pose)
+            twist = np.nan_to_num(session.command(observed))
             said.append(twist[0])
             pose = driven(pose, twist, PERIOD)
         return np.array(said)
 
     def test_optional_methods_return_valid_values(self) -> None:
         session = self.start()
-        seen = observation(0, START, np.zeros(2), PathAhead(STRAIGHT).ahead(START))
-        session.command(seen)
+        observed = observation(0, START, np.zeros(2), PathAhead(STRAIGHT).ahead(START))
+        session.command(observed)
         session.clear()
         poses = np.array([START, (2.0, 1.0, 1.0), (2.5, 1.5, -1.0)])
         free = np.asarray(session.is_free(poses))
         require(free.shape == (3,) and free.dtype == bool, f"is_free returns {free!r} for three poses")
-        for question, way in (("reroute", session.reroute(seen)), ("approach", session.approach(seen, 0.5))):
+        for question, way in (("reroute", session.reroute(observed)), ("approach", session.approach(observed, 0.5))):
             right = way is None or (np.asarray(way).ndim == 2 and np.asarray(way).shape[1] == 2)
             require(right, f"{question} returns {way!r} instead of f8[k,2] or None")
 

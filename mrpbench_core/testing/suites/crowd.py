@@ -43,8 +43,8 @@ class CrowdConformance(ComponentConformance):
 
     def walk(self, session: CrowdSession) -> list[Movers]:
         """Where the movers are at first and after each of 200 control periods, around a robot at rest."""
-        seen = self.seen()
-        return [session.movers, *(session.step(PERIOD, seen) for _ in range(STEPS))]
+        view = self.seen()
+        return [session.movers, *(session.step(PERIOD, view) for _ in range(STEPS))]
 
     def places(self, seed: int) -> Float:
         """Movers f8[t,m,5]: x, y, yaw, vx, vy."""

@@ -10,7 +10,7 @@ from mrpbench_core.api.dispatcher import Dispatcher, DispatchError, DispatcherSe
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.common.arrays import Int32
 from mrpbench_core.model.execution.orders import BatchOrders, FleetView, Orders
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Resource
 from mrpbench_core.testing.drawing import path_through, problem
@@ -96,7 +96,7 @@ class DispatcherConformance(ComponentConformance):
             executor.step(0, session.update(0.0, executor.view()).released)
             released = session.update(asked.roadmap.tick, executor.view()).released
             prefixes = tuple(
-                Path(edge=path.edge[:count], enter=path.enter[:count], leave=path.leave[:count])
+                RobotPath(edge=path.edge[:count], enter=path.enter[:count], leave=path.leave[:count])
                 for path, count in zip(plan.paths, released.tolist(), strict=True)
             )
             again = attrs.evolve(asked, commitments=prefixes)
@@ -147,13 +147,14 @@ class DispatcherConformance(ComponentConformance):
             sessions = [self.make().start(asked, plan) for _ in executors]
             for step in range(MOST_STEPS):
                 now, views = step * asked.roadmap.tick, [executor.view() for executor in executors]
-                seen = np.array([[view.reached for view in views], [view.cleared for view in views]], np.int64)
-                given = together.update(now, seen)
+                progress = np.array([[view.reached for view in views], [view.cleared for view in views]], np.int64)
+                orders = together.update(now, progress)
                 for execution, (session, executor) in enumerate(zip(sessions, executors, strict=True)):
                     alone = session.update(now, views[execution])
-                    require(np.array_equal(given.released[execution], alone.released), f"{name}: releases other moves")
+                    require(np.array_equal(orders.released[execution], alone.released), f"{name}: releases other moves")
                     require(
-                        in_step(given, execution) == set(map(frozenset, alone.in_step)), f"{name}: keeps others in step"
+                        in_step(orders, execution) == set(map(frozenset, alone.in_step)),
+                        f"{name}: keeps others in step",
                     )
                     executor.step(step, alone.released)
                 if all(executor.done for executor in executors):

@@ -53,9 +53,9 @@ class MetricConformance(ComponentConformance):
 
     def test_gives_exactly_its_columns(self) -> None:
         metric = self.make()
-        given, wanted = set(measured(metric, finished())), {column.name for column in metric.columns}
-        require(given <= wanted, f"returns values that `columns` does not declare: {', '.join(sorted(given - wanted))}")
-        require(wanted <= given, f"returns no value (None is one) for: {', '.join(sorted(wanted - given))}")
+        names, wanted = set(measured(metric, finished())), {column.name for column in metric.columns}
+        require(names <= wanted, f"returns values that `columns` does not declare: {', '.join(sorted(names - wanted))}")
+        require(wanted <= names, f"returns no value (None is one) for: {', '.join(sorted(wanted - names))}")
 
     def test_needs_no_channel_that_it_does_not_require(self) -> None:
         metric = self.make()

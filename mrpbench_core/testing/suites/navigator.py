@@ -142,13 +142,13 @@ class NavigatorConformance(ComponentConformance):
                 if now >= adopt_at:
                     session.adopt(ROUTES, np.zeros(2, np.int32))
                     adopt_at = math.inf
-                seen = FleetObservation(
+                observations = FleetObservation(
                     estimate=Estimate(pose=state.pose),
                     odometry=Odometry(pose=state.pose, twist=state.twist),
                     level=state.level,
                     scans=simulation.scans(),
                 )
-                motion = session.step(now, seen, Orders(released=release(now)))
+                motion = session.step(now, observations, Orders(released=release(now)))
                 motions.append(motion)
                 state = simulation.step(Inputs(twist=motion.twist))
                 states.append(state)

@@ -47,9 +47,10 @@ class SimulatorConformance(ComponentConformance):
                 shapes = [state.pose.shape, state.twist.shape, state.level.shape]
                 require(shapes == [(2, 3), (2, 2), (2,)], f"pose, twist, level of two robots have shapes {shapes}")
                 require(np.isfinite(state.pose).all() and np.isfinite(state.twist).all(), "poses or twists not finite")
-            latest, given = simulation.step(inputs(STILL, STILL)), simulation.state
+            latest, current = simulation.step(inputs(STILL, STILL)), simulation.state
             require(
-                np.array_equal(latest.pose, given.pose), "`state` is not the state that the last step returned: keep it"
+                np.array_equal(latest.pose, current.pose),
+                "`state` is not the state that the last step returned: keep it",
             )
 
     def test_robots_without_a_command_stay(self) -> None:
@@ -123,11 +124,11 @@ class SimulatorConformance(ComponentConformance):
                 taken += new
             stamps = [scan.stamp for scan in taken]
             require(stamps == sorted(stamps), "stamps of scans run backwards")
-            seen = [(scan.stamp, robot) for scan in taken for robot in scan.robot.tolist()]
-            require(len(seen) == len(set(seen)), "a robot scans twice at one instant")
+            stamped = [(scan.stamp, robot) for scan in taken for robot in scan.robot.tolist()]
+            require(len(stamped) == len(set(stamped)), "a robot scans twice at one instant")
             assert ROBOT.lidar is not None
             for robot in range(2):
-                count, due = sum(scanned == robot for _, scanned in seen), 3.0 * ROBOT.lidar.rate
+                count, due = sum(scanned == robot for _, scanned in stamped), 3.0 * ROBOT.lidar.rate
                 require(
                     0.7 * due <= count <= 1.3 * due + 1, f"robot {robot} took {count} scans in 3 s, {due:g} are due"
                 )
@@ -258,8 +259,8 @@ def drive(
     facilities: Mapping[str, float] | None = None,
 ) -> list[State]:
     """The states after each period of constant commands."""
-    given = attrs.evolve(inputs(*twists), facilities=facilities or {})
-    return [simulation.step(given) for _ in range(round(seconds / PERIOD))]
+    step_inputs = attrs.evolve(inputs(*twists), facilities=facilities or {})
+    return [simulation.step(step_inputs) for _ in range(round(seconds / PERIOD))]
 
 
 def of(scan: ScanBatch, robot: int) -> Float:

@@ -42,10 +42,10 @@ class TaskSourceConformance(ComponentConformance):
         """The tasks of an hour, asked for every `step` seconds; of those released, `share` are finished at once."""
         stream, tasks, now = self.stream(seed), list[Task](), 0.0
         while now <= HOUR:
-            given = list(stream.released(now, int(share * len(tasks))))
-            late = [task.index for task in given if task.release > now]
+            released = list(stream.released(now, int(share * len(tasks))))
+            late = [task.index for task in released if task.release > now]
             require(not late, f"at {now} s, tasks {late} are given before their release")
-            tasks += given
+            tasks += released
             now += step
         return tasks
 
@@ -79,12 +79,12 @@ class TaskSourceConformance(ComponentConformance):
         require(alike(all_done, few_done, release=False), "other tasks come when fewer are finished")
 
     def test_a_stream_that_has_ended_gives_no_task(self) -> None:
-        stream, now, given = self.stream(0), 0.0, 0
+        stream, now, count = self.stream(0), 0.0, 0
         while now <= HOUR:
             ended = stream.ended
-            tasks = stream.released(now, given)
-            require(not (ended and tasks), f"task {given} comes although the stream has ended")
-            given += len(tasks)
+            tasks = stream.released(now, count)
+            require(not (ended and tasks), f"task {count} comes although the stream has ended")
+            count += len(tasks)
             now += 60.0
 
 

@@ -10,7 +10,7 @@ from typing import Any
 import attrs
 import numpy as np
 
-from mrpbench_analysis.observed_run import ObservedRun, Sampling, observe, observe_own
+from mrpbench_analysis.observed_run import ObservedRun, Sampling, observe, observe_recording
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.format import Observed, ReadableFormat
 from mrpbench_core.api.metric import Metric
@@ -138,26 +138,26 @@ def _in_order(observed: Observed, robots: tuple[str, ...]) -> Observed:
 
 
 def _observe(analysis: Analysis, observed: Observed) -> ObservedRun:
-    own = observed.context
+    context = observed.context
     scenario = None if analysis.scenario is None else read_scenario(analysis.scenario)
-    if own is not None and scenario is not None and scenario.id != own.scenario.id:
+    if context is not None and scenario is not None and scenario.id != context.scenario.id:
         raise InputError(
-            f"is scenario {scenario.id}, the recording was made of {own.scenario.id}", file=analysis.scenario
+            f"is scenario {scenario.id}, the recording was made of {context.scenario.id}", file=analysis.scenario
         )
     cut = analysis.sampling.since is not None or analysis.sampling.until is not None
     names = tuple(track.robot for track in observed.tracks)
-    if own is not None and "time" in observed.channels and names == own.fleet.names and not cut:
-        return observe_own(observed, own)
+    if context is not None and "time" in observed.channels and names == context.fleet.names and not cut:
+        return observe_recording(observed, context)
     world = None if analysis.world is None else analysis.world.load()
-    if own is not None:
-        world, scenario = world or own.world, own.scenario
+    if context is not None:
+        world, scenario = world or context.world, context.scenario
     for value, name in ((world, "--world"), (scenario, "--scenario")):
         if value is None:
             raise InputError(f"a recording that mrpbench did not write needs {name}", file=analysis.bag)
     assert world is not None
     assert scenario is not None
-    if own is not None:
-        return observe(observed, world, own.fleet, scenario, analysis.sampling, assigned=own.assigned)
+    if context is not None:
+        return observe(observed, world, context.fleet, scenario, analysis.sampling, assigned=context.assigned)
     fleet = Fleet(robots=(load_robot(analysis.robot),) * len(scenario.start))
     ordered = len(analysis.robots) == len(scenario.start)
     return observe(observed, world, fleet, scenario, analysis.sampling, ordered=ordered)

@@ -34,9 +34,9 @@ def signal_channels(observed: Observed, time: Float, max_gap: float, notes: list
     if (poses := _poses("odometry", names, tracks, time, max_gap, notes)) is not None:
         twist = np.stack([_between(driven[name], time)[:, 3:] for name in names], axis=1)
         channels["odometry"] = np.concatenate([poses, twist], axis=-1)
-    told = _of(observed, "command")
-    if _is_known_for_all("command", names, told, notes):
-        channels["command"] = np.stack([_held(told[name], time) for name in names], axis=1)
+    commands = _of(observed, "command")
+    if _is_known_for_all("command", names, commands, notes):
+        channels["command"] = np.stack([_held(commands[name], time) for name in names], axis=1)
     channels |= _scans([_of(observed, "scan_ranges").get(name) for name in names], time)
     same = {SAME[track.source] for track in observed.tracks if track.source in SAME}
     return channels, tuple(frozenset({"truth", channel}) for channel in sorted(same) if channel in channels)

@@ -71,17 +71,17 @@ class ObservedRun:
     """See `mrpbench_core.model.runs.run.FinishedRun`."""
 
 
-def observe_own(observed: Observed, context: RunContext) -> ObservedRun:
+def observe_recording(observed: Observed, context: RunContext) -> ObservedRun:
     """The run of a recording that mrpbench made: samples as they are."""
     if "truth" in observed.channels:
-        return _own(observed, context, observed.channels)
+        return _observed_run(observed, context, observed.channels)
     time = observed.channels["time"]
     resampled_tracks = [resample(track, time, np.inf) for track in observed.tracks]
     truth = np.stack([resampled.pose for resampled in resampled_tracks], axis=1)
-    return _own(observed, context, {**observed.channels, "truth": truth})
+    return _observed_run(observed, context, {**observed.channels, "truth": truth})
 
 
-def _own(observed: Observed, context: RunContext, channels: Chunk) -> ObservedRun:
+def _observed_run(observed: Observed, context: RunContext, channels: Chunk) -> ObservedRun:
     last_move = np.array([route.last_move for route in with_latest_routes(context, _loaders(channels)).routes])
     arrived = (channels["reached"][-1] >= last_move).all()
     damaged = not observed.complete and not arrived and (channels["mode"][-1] != Mode.ABORTED).all()
@@ -245,12 +245,12 @@ def _levels(tracks: tuple[Track, ...], world: World, time: Float) -> Int16 | Non
         if track.levels:
             if not set(track.levels) <= set(names):
                 return None
-            own = np.array([names[name] for name in track.levels])
+            by_row = np.array([names[name] for name in track.levels])
         elif np.isfinite(track.height).all() and len(np.unique(elevation)) == len(elevation):
-            own = np.abs(track.height[:, None] - elevation).argmin(axis=1)
+            by_row = np.abs(track.height[:, None] - elevation).argmin(axis=1)
         else:
             return None
-        columns.append(own[newest])
+        columns.append(by_row[newest])
     return np.stack(columns, axis=1).astype(np.int16)
 
 
@@ -259,19 +259,19 @@ def _visits(
 ) -> tuple[Int32, list[int]]:
     """The number i4[T] of errands that a robot has done, and for each the row of its place: the first if it has not."""
     reached = np.zeros(len(pose), np.int32)
-    rows = [list(own) for own in task.by_errand(range(len(task.goals)))] if task else []
-    visited = [own[0] for own in rows]
+    rows = [list(places) for places in task.by_errand(range(len(task.goals)))] if task else []
+    visited = [places[0] for places in rows]
     since = 0
-    for errand, own in enumerate(rows):
+    for errand, places in enumerate(rows):
         assert task is not None
-        offset = pose[since:, None, :2] - task.goals[None, own, :2]
+        offset = pose[since:, None, :2] - task.goals[None, places, :2]
         near = np.hypot(offset[..., 0], offset[..., 1]) <= tolerance
         if level is not None:
-            near &= level[since:, robot, None] == task.levels[own]
+            near &= level[since:, robot, None] == task.levels[places]
         if not near.any():
             break
         first = int(near.any(axis=1).argmax())
-        visited[errand] = own[int(near[first].argmax())]
+        visited[errand] = places[int(near[first].argmax())]
         since += first
         reached[since:] += 1
     return reached, visited

@@ -46,8 +46,8 @@ def poses_in_walls(names: Sequence[str], time: Float, truth: Float, level: Int16
 def _solid(level: Level, place: Float) -> Bool:
     """Tell which places f8[k,2] are in solid cells; nothing is known, and so nothing solid, outside the raster."""
     low, high = bounds(level)
-    own = level.occupancy
-    raster = rasterise(level, max(own.cell_size if own else CELL, float((high - low).max()) / MOST_CELLS))
+    occupancy = level.occupancy
+    raster = rasterise(level, max(occupancy.cell_size if occupancy else CELL, float((high - low).max()) / MOST_CELLS))
     cell = np.floor((place - raster.origin) / raster.cell_size).astype(int)[:, ::-1]
     within = ((cell >= 0) & (cell < raster.shape)).all(axis=-1)
     solid = np.zeros(len(place), bool)

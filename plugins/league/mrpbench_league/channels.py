@@ -42,15 +42,15 @@ def _motion(output: LorrOutput, raster: Occupancy, seconds: float, rate: float) 
     east = np.cumsum(ahead * np.array([1, 0, -1, 0])[heading], axis=0)
     south = np.cumsum(ahead * np.array([0, 1, 0, -1])[heading], axis=0)
     every = max(1, round(1 / (rate * seconds)))
-    kept = np.unique([*range(0, output.makespan + 1, every), output.makespan])
+    ticks = np.unique([*range(0, output.makespan + 1, every), output.makespan])
     cell = raster.cell_size
-    x = raster.origin[0] + cell * (output.start[:, 1] + 0.5 + east[kept] / counter)
-    y = raster.origin[1] + cell * (raster.shape[0] - output.start[:, 0] - 0.5 - south[kept] / counter)
-    yaw = -math.pi / 2 * (output.start[:, 2] + turned[kept] / counter)
+    x = raster.origin[0] + cell * (output.start[:, 1] + 0.5 + east[ticks] / counter)
+    y = raster.origin[1] + cell * (raster.shape[0] - output.start[:, 0] - 0.5 - south[ticks] / counter)
+    yaw = -math.pi / 2 * (output.start[:, 2] + turned[ticks] / counter)
     turning = (letters == COUNTER_CLOCKWISE).astype(float) - (letters == CLOCKWISE)
-    twist = np.stack([cell * ahead[kept], math.pi / 2 * turning[kept]], axis=2) / (counter * seconds)
+    twist = np.stack([cell * ahead[ticks], math.pi / 2 * turning[ticks]], axis=2) / (counter * seconds)
     return {
-        "time": kept * seconds,
+        "time": ticks * seconds,
         "truth": np.stack([x, y, (yaw + math.pi) % (2 * math.pi) - math.pi], axis=2),
         "truth_twist": twist,
         "level": np.zeros(x.shape, np.int16),

@@ -87,12 +87,12 @@ def execute(problem: LorrProblem, duration: int, options: Options | None = None)
     unexecuted = running.unexecuted[np.argsort(running.unexecuted[:, 1], kind="stable")]
     paths, asked, motion = [], [], []
     for robot, rows in enumerate(np.split(unexecuted, np.searchsorted(unexecuted[:, 1], np.arange(1, robots)))):
-        own = np.ascontiguousarray(letters[:, robot])
-        planned = own.copy()
+        column = np.ascontiguousarray(letters[:, robot])
+        planned = column.copy()
         planned[rows[:, 0]] = rows[:, 2]
-        paths.append(_text(own, segments[:, robot], ticked))
+        paths.append(_text(column, segments[:, robot], ticked))
         asked.append(_text(planned, segments[:, robot], ticked))
-        motion.append(Motion(own, ((0, len(own)),) if ticked else ()))
+        motion.append(Motion(column, ((0, len(column)),) if ticked else ()))
     delays: list[list[tuple[int, int]]] = [[] for _ in range(robots)]
     for robot, start, end in running.delays.tolist():
         delays[robot].append((start, end))

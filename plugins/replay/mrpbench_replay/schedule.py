@@ -4,13 +4,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mrpbench_core.model.planning.plan import Path
+from mrpbench_core.model.planning.plan import RobotPath
 from mrpbench_core.model.runs.plans import RecordedPlan
 from mrpbench_replay.packing import Packing
 
 QUANTUM = 0.01
 """Resolution in seconds."""
-NO_PATH = Path(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
+NO_PATH = RobotPath(edge=np.empty(0, "i4"), enter=np.empty(0, "i8"), leave=np.empty(0, "i8"))
 
 
 def pack_schedule(plans: Sequence[RecordedPlan], tick: float, packing: Packing) -> None:
@@ -41,7 +41,7 @@ def pack_schedule(plans: Sequence[RecordedPlan], tick: float, packing: Packing) 
     packing.add("plan_waits", np.concatenate(waits))
 
 
-def _last_move(path: Path) -> int:
+def _last_move(path: RobotPath) -> int:
     """Number of leading segments up to the last move."""
     moves = np.flatnonzero(path.edge >= 0)
     return int(moves[-1]) + 1 if len(moves) else 0

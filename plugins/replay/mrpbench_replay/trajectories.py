@@ -30,8 +30,8 @@ def pack_trajectories(recording: Recording, packing: Packing, most: int = TRAJEC
     new = np.append(True, (np.diff(times[order]) != 0) | (np.diff(robots[order]) != 0))
     moment = np.cumsum(new) - 1
     step = -(-len(order) // most)
-    kept = moment % step == 0
-    rows, first = order[kept], new[kept].nonzero()[0]
+    sampled = moment % step == 0
+    rows, first = order[sampled], new[sampled].nonzero()[0]
     size = np.diff(np.append(first, len(rows)))
     packing.add_metres("trajectory_time", times[rows][first])
     packing.add("trajectory_robot", robots[rows][first])

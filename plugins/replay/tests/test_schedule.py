@@ -3,7 +3,7 @@ import numpy as np
 from mrpbench_replay.packing import Packing
 from mrpbench_replay.schedule import pack_schedule
 
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.runs.plans import RecordedPlan, read_plans
 
 
@@ -39,6 +39,6 @@ def test_a_plan_known_by_its_routes_alone_has_no_times(run_context, unpack):
 
 
 def test_waits_after_the_last_move_are_left_out(run_context, unpack):
-    path = Path(edge=[0, -1, -1], enter=[0, 1, 2], leave=[1, 2, 5])
+    path = RobotPath(edge=[0, -1, -1], enter=[0, 1, 2], leave=[1, 2, 5])
     plan = RecordedPlan(time=0.0, routes=run_context.routes[:1], plan=Plan(paths=(path,)))
     assert packed(unpack, [plan], 1.0)["plan_end"].tolist() == [1]

@@ -8,7 +8,7 @@ from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.builtin.dispatchers.all_at_once import AllAtOnce
 from mrpbench_core.builtin.dispatchers.timed import Timed
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.planning.problem import Feature, Rules
 from mrpbench_core.model.planning.roadmap import Resource
 
@@ -139,8 +139,8 @@ def test_a_cycle_that_only_time_resolves_is_refused_by_name(make):
     """A quick robot goes round a slow one and leaves its goal before it arrives: late, they would wait forever."""
     points = [(0, 0), (9, 0), (3, 3), (6, 3), (9, 3), (0, 3)]
     ways = make.roadmap(points, [(0, 1), (5, 0), (0, 2), (2, 1), (1, 4)], duration=[20, 1, 1, 1, 1])
-    slow = Path(edge=[0], enter=[0], leave=[20])
-    quick = Path(edge=[2, 4, 6, 8], enter=[0, 1, 2, 3], leave=[1, 2, 3, 4])
+    slow = RobotPath(edge=[0], enter=[0], leave=[20])
+    quick = RobotPath(edge=[2, 4, 6, 8], enter=[0, 1, 2, 3], leave=[1, 2, 3, 4])
     plan = Plan(paths=(slow, quick))
     problem = make.problem(ways, plan, [0, 5])
     with pytest.raises(DispatchError, match="robots 0, 1 at vertices 0, 1, 2, 4 wait for one another"):
@@ -152,9 +152,9 @@ def test_a_cycle_that_only_time_resolves_is_refused_by_name(make):
 def test_a_slow_ring_that_does_not_start_at_once_in_the_plan_still_starts_together(make):
     ways = make.roadmap([(0, 0), (4, 0), (2, 3)], [(0, 1), (1, 2), (2, 0)], duration=[10, 1, 10])
     paths = (
-        Path(edge=[0], enter=[0], leave=[10]),
-        Path(edge=[-1, 2], enter=[0, 5], leave=[5, 6]),
-        Path(edge=[-1, 4], enter=[0, 4], leave=[4, 14]),
+        RobotPath(edge=[0], enter=[0], leave=[10]),
+        RobotPath(edge=[-1, 2], enter=[0, 5], leave=[5, 6]),
+        RobotPath(edge=[-1, 4], enter=[0, 4], leave=[4, 14]),
     )
     plan = Plan(paths=paths)
     session = Adg().start(make.problem(ways, plan, [0, 1, 2]), plan)

@@ -18,7 +18,7 @@ from mrpbench_tests.instances.random_plans import (
 from mrpbench_core.api import DispatchError
 from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.checking.plan import check_plan
-from mrpbench_core.model.planning.plan import Budget, Path
+from mrpbench_core.model.planning.plan import Budget, RobotPath
 from mrpbench_core.model.planning.problem import Rules, features_of
 from mrpbench_core.testing.execution.delayed_executor import DelayedExecutor
 from mrpbench_core.testing.execution.drain import drain
@@ -67,7 +67,7 @@ def test_plans_that_change_on_the_way_drain(seed):
 
     def replan(released):
         prefixes = tuple(
-            Path(edge=path.edge[:count], enter=path.enter[:count], leave=path.leave[:count])
+            RobotPath(edge=path.edge[:count], enter=path.enter[:count], leave=path.leave[:count])
             for path, count in zip(session.plan.paths, released, strict=True)
         )
         committed = attrs.evolve(problem, commitments=prefixes)

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mrpbench_core.builtin.dispatchers.timed import Timed
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 
 
 def test_each_segment_is_released_when_the_plan_enters_it(make):
@@ -39,7 +39,7 @@ def test_released_is_the_count_of_segments_entered_by_now(make, waits, instants)
     paths = []
     for lengths in waits:
         times = np.concatenate([[0], np.cumsum(lengths)]).astype(int)
-        paths.append(Path(edge=[-1] * len(lengths), enter=times[:-1], leave=times[1:]))
+        paths.append(RobotPath(edge=[-1] * len(lengths), enter=times[:-1], leave=times[1:]))
     plan = Plan(paths=tuple(paths))
     problem = make.problem(make.grid(1, 5), plan, list(range(len(paths))))
     session = Timed().start(problem, plan)

@@ -11,12 +11,12 @@ import pytest
 from mrpbench_core.api import Planner, Promise
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.drive.plan import budget_of, call_planner
-from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Plan, PlanResult, PlanStatus, RobotPath
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.referee.plans import Promises, judge_plan
 
 BUDGET = Budget(wall_s=1.0, memory_bytes=1 << 30)
-COLLIDING = Plan(paths=(Path(edge=[0], enter=[0], leave=[1]), Path(edge=[-1, 2], enter=[0, 2], leave=[2, 3])))
+COLLIDING = Plan(paths=(RobotPath(edge=[0], enter=[0], leave=[1]), RobotPath(edge=[-1, 2], enter=[0, 2], leave=[2, 3])))
 
 
 @attrs.frozen(kw_only=True)
@@ -92,14 +92,14 @@ def test_a_plan_must_leave_the_robots_as_far_apart_as_its_planner_promises(run_c
 
 
 def test_an_unsound_path_is_a_fault_of_every_planner(run_context):
-    jump = Plan(paths=(Path(edge=[2], enter=[0], leave=[1]), COLLIDING.paths[1]))
+    jump = Plan(paths=(RobotPath(edge=[2], enter=[0], leave=[1]), COLLIDING.paths[1]))
     _, fault = judged(Fixed, run_context.problem, PlanResult(status=PlanStatus.SOLVED, plan=jump))
     assert fault == "robot 0: starts at vertex 1 instead of 0"
 
 
 def test_a_planner_that_assigns_must_give_every_robot_another_task(run_context):
     either = attrs.evolve(run_context.problem, goals=(((1, 2),),) * 2)
-    together = Plan(paths=(Path(edge=[0], enter=[0], leave=[1]), Path(edge=[], enter=[], leave=[])))
+    together = Plan(paths=(RobotPath(edge=[0], enter=[0], leave=[1]), RobotPath(edge=[], enter=[], leave=[])))
     said = PlanResult(status=PlanStatus.SOLVED, plan=together)
     assert judged(Fixed, either, said)[1] is None
     assert judged(Assigning, either, said)[1] == (

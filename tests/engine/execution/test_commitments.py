@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from mrpbench_core.engine.execution.commitments import commitments, not_ahead
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
 
@@ -18,7 +18,7 @@ LINE = Roadmap(
     tick=1.0,
 )
 PROBLEM = Problem(roadmap=LINE, profile=[0], radius=[0.1], start=[0], ready=[0], goals=(((2,),),))
-PLAN = Plan(paths=(Path(edge=[0, -1, 1], enter=[0, 2, 4], leave=[2, 4, 7]),))
+PLAN = Plan(paths=(RobotPath(edge=[0, -1, 1], enter=[0, 2, 4], leave=[2, 4, 7]),))
 
 
 def committed(released, reached, ready, due):

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from mrpbench_core.checking.plan_result import result_fault
-from mrpbench_core.model.planning.plan import Path, Paths, Plan, PlanResult, PlanStatus, waits
+from mrpbench_core.model.planning.plan import Paths, Plan, PlanResult, PlanStatus, RobotPath, waits
 from mrpbench_core.testing.strategies import plans
 
 
@@ -55,5 +55,5 @@ def test_flat_arrays_that_do_not_fit_together_are_a_fault(columns):
 
 
 def test_paths_that_cannot_be_joined_stay_as_they_are():
-    ragged = (Path(edge=np.array([0, 1]), enter=np.array([0]), leave=np.array([1])),)
+    ragged = (RobotPath(edge=np.array([0, 1]), enter=np.array([0]), leave=np.array([1])),)
     assert Plan(paths=ragged).paths is ragged

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.runs.plans import RecordedPlan
@@ -27,8 +27,8 @@ def crossing():
     )
     goals = (((3,),), ((5,),))
     problem = Problem(roadmap=roadmap, profile=[0, 0], radius=[0.2, 0.2], start=[0, 4], ready=[0, 0], goals=goals)
-    first = Path(edge=[0, 1, 2], enter=[0, 1, 2], leave=[1, 2, 3])
-    second = Path(edge=[-1, 3, 1, 4], enter=[0, 2, 3, 4], leave=[2, 3, 4, 5])
+    first = RobotPath(edge=[0, 1, 2], enter=[0, 1, 2], leave=[1, 2, 3])
+    second = RobotPath(edge=[-1, 3, 1, 4], enter=[0, 2, 3, 4], leave=[2, 3, 4, 5])
     return problem, [RecordedPlan(time=0.0, routes=(), plan=Plan(paths=(first, second)))]
 
 

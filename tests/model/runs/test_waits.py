@@ -6,7 +6,7 @@ import pytest
 
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.dependencies import Dependencies
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Resource, Roadmap
 from mrpbench_core.model.runs.plans import read_plans
@@ -88,7 +88,7 @@ def test_a_robot_that_turns_on_the_spot_is_not_blocked(run_context, rows):
 
 
 def test_a_dispatcher_that_releases_by_the_clock_waits_for_its_time(rows, run_context):
-    late = Plan(paths=(Path(edge=[-1, 0], enter=[4, 4], leave=[4, 5]), Path(edge=[2], enter=[0], leave=[1])))
+    late = Plan(paths=(RobotPath(edge=[-1, 0], enter=[4, 4], leave=[4, 5]), RobotPath(edge=[2], enter=[0], leave=[1])))
     roadmap = attrs.evolve(run_context.problem.roadmap, tick=0.1)
     context = attrs.evolve(
         run_context,
@@ -165,7 +165,7 @@ def square():
         ready=[0] * 4,
         goals=(((1,),), ((2,),), ((3,),), ((0,),)),
     )
-    return problem, Plan(paths=tuple(Path(edge=[robot], enter=[0], leave=[1]) for robot in range(4)))
+    return problem, Plan(paths=tuple(RobotPath(edge=[robot], enter=[0], leave=[1]) for robot in range(4)))
 
 
 def test_where_orders_were_switched_the_robot_that_passed_first_is_named(run_context):
@@ -181,8 +181,8 @@ def test_where_orders_were_switched_the_robot_that_passed_first_is_named(run_con
     problem = Problem(
         roadmap=roadmap, profile=[0, 0], radius=[0.2] * 2, start=[0, 1], ready=[0, 0], goals=(((3,),), ((4,),))
     )
-    first = Path(edge=[0, 2], enter=[0, 1], leave=[1, 2])
-    second = Path(edge=[-1, 1, 3], enter=[0, 2, 3], leave=[2, 3, 4])
+    first = RobotPath(edge=[0, 2], enter=[0, 1], leave=[1, 2])
+    second = RobotPath(edge=[-1, 1, 3], enter=[0, 2, 3], leave=[2, 3, 4])
     routes = tuple(
         Route(waypoint=[(*roadmap.position[v], np.nan) for v in own], level=[0] * len(own), speed=[1] * (len(own) - 1))
         for own in ([0, 2, 3], [1, 1, 2, 4])

@@ -13,7 +13,7 @@ from mrpbench_core.checking.conflicts import find_conflicts
 from mrpbench_core.config.delays import Delays
 from mrpbench_core.engine.execution.delays import DrawnDelays
 from mrpbench_core.engine.seeds import Seeds
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 
 SEEDS = st.integers(0, 2**32 - 1)
 DELAYS = Delays(p_delay=0.1, max_delay=6, speed=0.3)
@@ -32,7 +32,7 @@ def executed(executor, execution):
                 edge, enter, leave = [*edge, -1], [*enter, last], [*leave, begun]
             edge, enter, leave = [*edge, int(executor.edge[robot, segment])], [*enter, begun], [*leave, ended]
             last = ended
-        paths.append(Path(edge=edge, enter=enter, leave=leave))
+        paths.append(RobotPath(edge=edge, enter=enter, leave=leave))
     return Plan(paths=tuple(paths))
 
 

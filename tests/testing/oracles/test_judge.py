@@ -11,7 +11,7 @@ from mrpbench_tests.instances.roadmaps import grid_of
 from mrpbench_tests.oracles.judge import answer_faults, ask, changes, contradictions
 
 from mrpbench_core.api.planner import Planner, Promise
-from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import AnytimePoint, Budget, Plan, PlanResult, PlanStatus, RobotPath
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.testing.faults import Fault
 
@@ -56,10 +56,10 @@ class Assigning(Careless):
     assign: bool = True
 
 
-def path(steps, asked=ASKED) -> Path:
+def path(steps, asked=ASKED) -> RobotPath:
     edges = [tuple(edge) for edge in asked.roadmap.edges.tolist()]
     ticks = range(len(steps) + 1)
-    return Path(edge=[edges.index(step) for step in steps], enter=ticks[:-1], leave=ticks[1:])
+    return RobotPath(edge=[edges.index(step) for step in steps], enter=ticks[:-1], leave=ticks[1:])
 
 
 def answer(steps=SHORTEST, bound=2.0, **fields) -> PlanResult:

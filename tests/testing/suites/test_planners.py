@@ -9,7 +9,7 @@ from mrpbench_core.api import (
     Planner,
     Promise,
 )
-from mrpbench_core.model.planning.plan import Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import Plan, PlanResult, PlanStatus, RobotPath
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.testing import failed_checks, suite_for
 from mrpbench_core.testing.drawing import problem
@@ -22,7 +22,7 @@ class Still(Planner):
     """Returns plans in which no robot moves."""
 
     def plan(self, problem, budget):
-        nothing = Path(edge=[], enter=[], leave=[])
+        nothing = RobotPath(edge=[], enter=[], leave=[])
         return PlanResult(status=PlanStatus.SOLVED, plan=Plan(paths=(nothing,) * len(problem)))
 
 
@@ -45,7 +45,7 @@ class Bfs:
             edges = ways.get(asked.goals[robot][0][0])
             if edges is None:
                 return None
-            paths.append(Path(edge=edges, enter=np.arange(len(edges)), leave=np.arange(len(edges)) + 1))
+            paths.append(RobotPath(edge=edges, enter=np.arange(len(edges)), leave=np.arange(len(edges)) + 1))
         return Plan(paths=tuple(paths))
 
 
@@ -62,7 +62,7 @@ def slow(self, asked, budget):
     plan = Bfs.plan(asked)
     if plan is None or len(asked) > 1:
         return PlanResult(status=PlanStatus.GAVE_UP)
-    late = Path(
+    late = RobotPath(
         edge=[-1, *plan.paths[0].edge], enter=[0, *plan.paths[0].enter + 1], leave=[1, *plan.paths[0].leave + 1]
     )
     return PlanResult(status=PlanStatus.SOLVED, plan=Plan(paths=(late,)))

@@ -42,7 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
         arrival = float(arrival_times(run)[0]) if context.routes else math.nan
         drives[name_axes(axes) or "all"].append(drive_of(context, arrival))
         recording.close()
-    calibrations = {name: calibrate(own) for name, own in drives.items()}
+    calibrations = {name: calibrate(drives_of_one) for name, drives_of_one in drives.items()}
     if arguments.json:
         print_json(
             [{"configuration": name, "drives": len(drives[name]), **it._asdict()} for name, it in calibrations.items()]

@@ -19,10 +19,10 @@ class Greedy(Assigner):
             AssignmentError: only forbidden pairs are left.
         """
         task = cheapest_pairs(problem.costs)
-        given = np.flatnonzero(task >= 0)
-        if len(given) < min(problem.costs.shape):
-            raise AssignmentError(f"the cheapest pairs leave only forbidden ones after {len(given)} pairs")
-        return Assignment(task=task, cost=float(problem.costs[given, task[given]].sum()))
+        assigned = np.flatnonzero(task >= 0)
+        if len(assigned) < min(problem.costs.shape):
+            raise AssignmentError(f"the cheapest pairs leave only forbidden ones after {len(assigned)} pairs")
+        return Assignment(task=task, cost=float(problem.costs[assigned, task[assigned]].sum()))
 
 
 def cheapest_pairs(costs: Float) -> Int32:

@@ -47,19 +47,19 @@ class Dwb(LocalController):
 
     def limits(self, values: dict[str, Any], robot: RobotModel, period: float) -> dict[str, Any]:
         """Return the values within the limits of a robot."""
-        own = {name: value for name, value in values.items() if name not in OF_CONTROLLER}
+        limits = {name: value for name, value in values.items() if name not in OF_CONTROLLER}
         for name, limit in (
             ("max_vel_x", robot.max_speed),
             ("max_vel_theta", robot.max_turn_rate),
             ("acc_lim_x", robot.acceleration),
             ("acc_lim_theta", robot.turn_acceleration),
         ):
-            own[name] = limited(own[name], limit)
-        for name, acceleration in (("decel_lim_x", own["acc_lim_x"]), ("decel_lim_theta", own["acc_lim_theta"])):
-            own[name] = -acceleration if own[name] is None else own[name]
-        own["max_speed_xy"] = own["max_vel_x"] if own["max_speed_xy"] is None else own["max_speed_xy"]
-        own["min_vel_x"] = max(own["min_vel_x"], -robot.max_speed)
-        return own | {"period": period}
+            limits[name] = limited(limits[name], limit)
+        for name, acceleration in (("decel_lim_x", limits["acc_lim_x"]), ("decel_lim_theta", limits["acc_lim_theta"])):
+            limits[name] = -acceleration if limits[name] is None else limits[name]
+        limits["max_speed_xy"] = limits["max_vel_x"] if limits["max_speed_xy"] is None else limits["max_speed_xy"]
+        limits["min_vel_x"] = max(limits["min_vel_x"], -robot.max_speed)
+        return limits | {"period": period}
 
     def idle_options(self) -> dict[str, str]:
         """Return options that the others make idle."""

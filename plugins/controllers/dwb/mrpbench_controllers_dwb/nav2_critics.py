@@ -62,10 +62,10 @@ def _native(cls: type[N]) -> type[N]:
 
 def _with_defaults(cls: type, fields: list[Any]) -> list[Any]:
     """Give the options of a critic the values in the parameter file, and keep those of Nav2's code beside them."""
-    own = TURTLEBOT3.get(cls.__name__, {})
+    tuned = TURTLEBOT3.get(cls.__name__, {})
     return [
-        field.evolve(default=own[field.name], metadata={**field.metadata, IN_CODE: field.default})
-        if field.name in own
+        field.evolve(default=tuned[field.name], metadata={**field.metadata, IN_CODE: field.default})
+        if field.name in tuned
         else field
         for field in fields
     ]

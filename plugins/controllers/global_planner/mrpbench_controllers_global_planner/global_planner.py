@@ -68,18 +68,18 @@ class GlobalPlanner(Controller):
 
     def settings(self, robot: RobotModel, side: float) -> RobotSettings:
         """Return the settings of a robot's costmap, which by default is `side` metres wide and high."""
-        given = self.global_costmap or LocalCostmap()
-        seen = robot.lidar.range if robot.lidar is not None else None
+        costmap = self.global_costmap or LocalCostmap()
+        lidar_range = robot.lidar.range if robot.lidar is not None else None
         defaults: dict[str, Any] = {
             "width": side,
             "height": side,
-            "footprint": "robot" if given.robot_radius is None else None,
-            "obstacle_max_range": seen,
-            "raytrace_max_range": seen,
+            "footprint": "robot" if costmap.robot_radius is None else None,
+            "obstacle_max_range": lidar_range,
+            "raytrace_max_range": lidar_range,
             "plugins": ("obstacle_layer", "inflation_layer"),
         }
-        filled = {name: value for name, value in defaults.items() if getattr(given, name) is None}
-        values, footprint = attrs.evolve(given, **filled).settings(robot, None)
+        filled = {name: value for name, value in defaults.items() if getattr(costmap, name) is None}
+        values, footprint = attrs.evolve(costmap, **filled).settings(robot, None)
         values["max_detour"] = 0.0
         return RobotSettings(values | lidar_values(robot), np.array(footprint))
 

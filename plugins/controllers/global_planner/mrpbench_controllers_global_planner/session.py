@@ -55,8 +55,8 @@ class GlobalPlannerSession(FleetControllerSession):
         for row, robot in enumerate(seen.robot.tolist()):
             is_new = bool((goal[row] != self._goal[robot]).any())
             if is_new or seen.now >= self._due[robot] - 1e-9:
-                own, tolerance = slice(row, row + 1), self._replanning.tolerance
-                self._path[robot] = self._maps.plan(seen.now, robot, seen.pose[own], goal[own], tolerance)
+                one, tolerance = slice(row, row + 1), self._replanning.tolerance
+                self._path[robot] = self._maps.plan(seen.now, robot, seen.pose[one], goal[one], tolerance)
                 self._goal[robot] = goal[row]
                 self._due[robot] = seen.now + 1 / self._replanning.frequency
         planned, rows = self._with_paths(seen)
@@ -64,30 +64,30 @@ class GlobalPlannerSession(FleetControllerSession):
         twist[rows] = self._primary.command(planned)
         return twist
 
-    def _with_paths(self, seen: Observations) -> tuple[Observations, list[int]]:
+    def _with_paths(self, observations: Observations) -> tuple[Observations, list[int]]:
         """The observations of the rows with a path, which is the planned one, and these rows."""
         rows, feet, points = [], [], []
-        for row, robot in enumerate(seen.robot.tolist()):
+        for row, robot in enumerate(observations.robot.tolist()):
             path = self._path[robot]
             if path is None:
                 continue
-            foot, rest = ahead(path, seen.pose[row, :2])
+            foot, rest = ahead(path, observations.pose[row, :2])
             rows.append(row)
             feet.append(foot)
             points.append(rest)
         counts = np.array([len(rest) for rest in points], np.int64)
         end = counts.cumsum()
         planned = attrs.evolve(
-            seen,
-            robot=seen.robot[rows],
-            pose=seen.pose[rows],
-            twist=seen.twist[rows],
+            observations,
+            robot=observations.robot[rows],
+            pose=observations.pose[rows],
+            twist=observations.twist[rows],
             foot=np.array(feet).reshape(-1, 2),
             points=np.concatenate([*points, np.empty((0, 2))]),
             begin=end - counts,
             end=end,
-            yaw=seen.yaw[rows],
-            speed=seen.speed[rows],
+            yaw=observations.yaw[rows],
+            speed=observations.speed[rows],
         )
         return planned, rows
 

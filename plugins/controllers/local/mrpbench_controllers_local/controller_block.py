@@ -58,8 +58,12 @@ def primary_block(block: Nav2Block) -> Nav2Block:
 
 def controller_notes(server: Nav2Block, block: Nav2Block) -> tuple[str, ...]:
     """Return the notes that the file does not list a block, and that it is one of a shim, which is not used."""
-    listed, own = plugin_ids(server, "controller"), block.title.rpartition(".")[2]
-    notes = [] if own in listed else [f"controller_plugins lists {', '.join(listed)}, but only {own} has parameters"]
+    listed, block_id = plugin_ids(server, "controller"), block.title.rpartition(".")[2]
+    notes = (
+        []
+        if block_id in listed
+        else [f"controller_plugins lists {', '.join(listed)}, but only {block_id} has parameters"]
+    )
     if _name(block.take("plugin", str, "")) == SHIM:
         notes.append(NOT_HERE)
     place = f"{block.document.file}: " if block.document else ""
@@ -69,8 +73,8 @@ def controller_notes(server: Nav2Block, block: Nav2Block) -> tuple[str, ...]:
 def _plugins(server: Nav2Block, name: str, listed: tuple[str, ...]) -> tuple[str, ...]:
     """Return the plugins whose parameters a block has; any if it names none."""
     types = server.take_names("controller_plugin_types")  # of eloquent
-    given = server.take(f"{name}.plugin", str, dict(zip(listed, types, strict=False)).get(name, ""))
-    plugin = _name(given)
+    plugin_type = server.take(f"{name}.plugin", str, dict(zip(listed, types, strict=False)).get(name, ""))
+    plugin = _name(plugin_type)
     if plugin == SHIM:
         primary = "primary_controller" if f"{name}.primary_controller" in server else "primary_controller.plugin"
         return plugin, _name(server.take(f"{name}.{primary}", str, ""))

@@ -9,7 +9,7 @@ from mrpbench_native.local import robot_options
 
 from mrpbench_controllers_local.nav2_names import OF_COSTMAPS, OF_LAYERS, OF_SOURCES, OLDER_RANGES
 from mrpbench_core.api.described import DescribedOption, described
-from mrpbench_core.api.nav2 import as_parameter, parameter, settle
+from mrpbench_core.api.nav2 import as_parameter, parameter, resolve_options
 from mrpbench_core.files import yaml
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.nav2 import OF_EVERY_NODE, Nav2Block
@@ -76,9 +76,9 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
         Raises:
             InputError: the Nav2 file has a value that is not supported.
         """
-        values = settle(self, block, of=CostmapGrid)
-        values |= settle(self, of=InflationLayer) | settle(self, of=ObservationSource)
-        layers = self.plugins or settle(self, of=LocalCostmap)["plugins"]
+        values = resolve_options(self, block, of=CostmapGrid)
+        values |= resolve_options(self, of=InflationLayer) | resolve_options(self, of=ObservationSource)
+        layers = self.plugins or resolve_options(self, of=LocalCostmap)["plugins"]
         polygon = self._polygon(robot, block)
         if block is not None:
             block.not_used(*OF_EVERY_NODE, *OF_COSTMAPS)
@@ -104,14 +104,14 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
         if not layer.take("enabled", bool, True):
             layer.ignore()
             return None, {}
-        own = next((kind for kind, word in _LAYERS.items() if word == name), name)
-        kind = layer.take("plugin", str, own).replace("/", "::").rpartition("::")[2]
+        layer_type = next((kind for kind, word in _LAYERS.items() if word == name), name)
+        kind = layer.take("plugin", str, layer_type).replace("/", "::").rpartition("::")[2]
         if kind not in _LAYERS:
             raise layer.error(f"{kind!r} is not an implemented layer", "plugin", hint=f"layers: {', '.join(_LAYERS)}")
         layer.not_used(*OF_LAYERS)
         values: dict[str, Any] = {}
         if _LAYERS[kind] == "inflation_layer":
-            values = settle(self, layer, of=InflationLayer)
+            values = resolve_options(self, layer, of=InflationLayer)
         elif _LAYERS[kind] in ("obstacle_layer", "voxel_layer"):
             values = self._observations(layer)
             cleared = layer.take("footprint_clearing_enabled", bool)
@@ -129,7 +129,7 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
         source.take("data_type", str)
         source.rename(OLDER_RANGES)
         source.not_used(*OF_SOURCES, *OLDER_RANGES)
-        values = settle(self, source, of=ObservationSource)
+        values = resolve_options(self, source, of=ObservationSource)
         if attrs.asdict(self, recurse=False)[_NOT_AS_NAV2] is None:
             values[_NOT_AS_NAV2] = source.take(_NOT_AS_NAV2, bool, False)
         if source.take("observation_persistence", float, 0.0):

@@ -16,7 +16,7 @@ from mrpbench_controllers_local.nav2_names import OF_CONTROLLERS, OF_PATH_HANDLE
 from mrpbench_controllers_local.settings import RobotSettings, lidar_values
 from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, between, option
 from mrpbench_core.api.described import described
-from mrpbench_core.api.nav2 import controller_server, not_used, plugin_ids, read_option, settle
+from mrpbench_core.api.nav2 import controller_server, not_used, plugin_ids, read_option, resolve_options
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.nav2 import Nav2Block
 from mrpbench_core.files.nav2_file import Nav2File
@@ -78,7 +78,7 @@ class LocalController(Controller):
         if block is not None:
             block.rename(self.renamed)
             block.not_used(*OF_CONTROLLERS, *self.renamed)
-        return settle(self, block)
+        return resolve_options(self, block)
 
     def chosen_critics(self, block: Nav2Block | None) -> tuple[Critic, ...]:
         """Return the critics of the options, or else of the block, or else of the default."""

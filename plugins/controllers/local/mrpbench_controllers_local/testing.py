@@ -49,10 +49,10 @@ class CriticConformance(ComponentConformance):
         require(np.array_equal(one, other), "scores differ the second time: keep all state in the session")
 
     def test_does_not_change_the_trajectories(self) -> None:
-        given, kept = trajectories(10), trajectories(10)
-        scores(self.session(), given)
+        scored, copy = trajectories(10), trajectories(10)
+        scores(self.session(), scored)
         for name in ("twist", "pose", "path"):
-            same = np.array_equal(getattr(given, name), getattr(kept, name))
+            same = np.array_equal(getattr(scored, name), getattr(copy, name))
             require(same, f"changes `trajectories.{name}`: copy it before writing")
 
     def test_its_controller_commands_a_robot_with_it(self) -> None:
@@ -71,10 +71,10 @@ def trajectories(samples: int) -> Trajectories:
     return Trajectories(twist=twist, pose=np.stack(poses, axis=1), path=PATH.copy(), yaw=float("nan"))
 
 
-def scores(session: CriticSession, given: Trajectories) -> Float:
+def scores(session: CriticSession, trajectories: Trajectories) -> Float:
     """The scores of a session, one number for each trajectory."""
-    values: Any = session.score(given)
-    count = len(given.twist)
+    values: Any = session.score(trajectories)
+    count = len(trajectories.twist)
     right = isinstance(values, np.ndarray) and values.shape == (count,)
     require(right, f"score returns {values!r} for {count} trajectories: return f8[{count}]")
     require(not np.isnan(values).any(), "a score is NaN: return infinity for what must not be driven")

@@ -104,8 +104,8 @@ class VelocityDeadbandCritic(NativeMppiCritic):
         """Create the critic from its block, in which Nav2 lists the deadbands of x, y and yaw."""
         critic = super().from_nav2(block)
         parameters = critic.parameters
-        name, own = "deadband_velocities", (parameters["deadband_vx"], 0.0, parameters["deadband_wz"])
-        deadbands = block.take(name, tuple, own)
+        name, separate = "deadband_velocities", (parameters["deadband_vx"], 0.0, parameters["deadband_wz"])
+        deadbands = block.take(name, tuple, separate)
         if len(deadbands) != 3 or not all(type(value) in (int, float) and 0 <= value < 1e3 for value in deadbands):
             raise block.error(f"must be three numbers from 0 on, got {list(deadbands)!r}", name)
         return cls(**parameters | {"deadband_vx": float(deadbands[0]), "deadband_wz": float(deadbands[2])})

@@ -10,7 +10,7 @@ from mrpbench_controllers_local.controller_block import NOT_HERE, SHIM, controll
 
 from mrpbench_controllers_rotation_shim.session import RotationShimSession, Turning
 from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, option
-from mrpbench_core.api.nav2 import controller_server, parameter, settle
+from mrpbench_core.api.nav2 import controller_server, parameter, resolve_options
 from mrpbench_core.files.nav2_file import Nav2File
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.worlds.world import World
@@ -58,7 +58,7 @@ class RotationShim(Controller):
         Raises:
             InputError: the Nav2 file has no shim, or a value that is not supported.
         """
-        return settle(self) if self.nav2 is None else self._read(self.nav2)[0]
+        return resolve_options(self) if self.nav2 is None else self._read(self.nav2)[0]
 
     def start(self, robot: RobotModel, world: World, period: float) -> ControllerSession:
         """Begin to control one robot."""
@@ -83,9 +83,9 @@ class RotationShim(Controller):
 
     def notes(self) -> tuple[str, ...]:
         """Return what the Nav2 file says without effect here, and the notes of the other controller."""
-        own = () if self.nav2 is None else self._read(self.nav2)[1]
+        outer = () if self.nav2 is None else self._read(self.nav2)[1]
         inner = self.primary_controller.notes()
-        return (*own, *(note for note in inner if self.nav2 is None or not note.endswith(NOT_HERE)))
+        return (*outer, *(note for note in inner if self.nav2 is None or not note.endswith(NOT_HERE)))
 
     def _read(self, nav2: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
         """Return what the Nav2 file says, and notes on what it says without effect."""
@@ -94,7 +94,7 @@ class RotationShim(Controller):
         def read(namespace: str) -> tuple[dict[str, Any], tuple[str, ...]]:
             block = controller_block(controller_server(file, namespace), SHIM, self.controller_id)
             unread = ", ".join(name for name in _NOT_USED if name in block)
-            return settle(self, block), (f"{nav2}: {block.title}: not used here: {unread}",) if unread else ()
+            return resolve_options(self, block), (f"{nav2}: {block.title}: not used here: {unread}",) if unread else ()
 
         return file.read("controller_server", self.namespace, read)
 

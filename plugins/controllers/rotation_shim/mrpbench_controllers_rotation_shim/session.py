@@ -81,29 +81,29 @@ class RotationShimSession(FleetControllerSession):
         self._last[robot] = np.nan_to_num(twist[:, 1])
         return twist
 
-    def _angle_to_path(self, seen: Observations, row: int) -> float:
+    def _angle_to_path(self, observations: Observations, row: int) -> float:
         """Angle from the heading of a robot to the point of its path that is the sampling distance away, radians."""
-        path = seen.path(row)
+        path = observations.path(row)
         legs = np.hypot(*np.diff(path, axis=0).T)
         along = np.append(0.0, np.cumsum(legs))
         distance = self._turning.forward_sampling_distance
         aim = np.array([np.interp(distance, along, path[:, axis]) for axis in (0, 1)])
-        x, y = (aim - seen.pose[row, :2]).tolist()
-        if np.hypot(x, y) <= seen.tolerance:  # a robot that has nearly arrived need not turn
+        x, y = (aim - observations.pose[row, :2]).tolist()
+        if np.hypot(x, y) <= observations.tolerance:  # a robot that has nearly arrived need not turn
             return 0.0
-        return float(_wrapped(np.arctan2(y, x) - seen.pose[row, 2]))
+        return float(_wrapped(np.arctan2(y, x) - observations.pose[row, 2]))
 
-    def _turn(self, seen: Observations, row: int, angle: float) -> tuple[float, float]:
+    def _turn(self, observations: Observations, row: int, angle: float) -> tuple[float, float]:
         """The command of a robot that turns, so fast that it can stop at the wanted heading."""
-        robot = int(seen.robot[row])
+        robot = int(observations.robot[row])
         accel = float(self._accel[robot])
-        now = float(seen.twist[row, 1] if self._turning.closed_loop else self._last[robot])
+        now = float(observations.twist[row, 1] if self._turning.closed_loop else self._last[robot])
         change = accel * self._period
         rate = float(np.clip(np.copysign(self._spin[robot], angle), now - change, now + change))
         if rate * angle > 0:
             rate = float(np.copysign(min(abs(rate), np.sqrt(2 * accel * abs(angle))), rate))
         share = min(1.0, abs(rate) * self._turning.simulate_ahead_time / max(abs(angle), 1e-9))
-        poses = np.tile(seen.pose[row], (_CHECKS, 1))
+        poses = np.tile(observations.pose[row], (_CHECKS, 1))
         poses[:, 2] += angle * share * np.linspace(0.0, 1.0, _CHECKS)
         if not self._primary.is_free(robot, poses).all():
             self._blocked[robot] = True
@@ -140,9 +140,9 @@ def _wrapped(angle: Float | float) -> Float:
     return wrapped
 
 
-def _rows(seen: Observations, rows: np.ndarray) -> Observations:
+def _rows(observations: Observations, rows: np.ndarray) -> Observations:
     """Some rows of observations, with the scans of all robots."""
-    if len(rows) == len(seen.robot):
-        return seen
+    if len(rows) == len(observations.robot):
+        return observations
     names = ("robot", "pose", "twist", "foot", "begin", "end", "yaw", "speed")
-    return attrs.evolve(seen, **{name: getattr(seen, name)[rows] for name in names})
+    return attrs.evolve(observations, **{name: getattr(observations, name)[rows] for name in names})

@@ -30,7 +30,7 @@ class DynaBarnObstacles(Crowd):
     keyframes: Path = option(help="CSV table with columns class, index, t, x, y")
     index: int = option(help="number of the world")
 
-    def start(self, world: World, fleet: Fleet, seed: int, seen: CrowdView) -> CrowdSession:  # noqa: ARG002
+    def start(self, world: World, fleet: Fleet, seed: int, view: CrowdView) -> CrowdSession:  # noqa: ARG002
         """Begin all tracks of a world; as in the challenge, they may lead through walls.
 
         Raises:

@@ -62,7 +62,7 @@ class Scripted(Crowd):
         validator=validators.and_(validators.min_len(1), validators.max_len(LONGEST_KIND)),
     )
 
-    def start(self, world: World, fleet: Fleet, seed: int, seen: CrowdView) -> CrowdSession:  # noqa: ARG002
+    def start(self, world: World, fleet: Fleet, seed: int, view: CrowdView) -> CrowdSession:  # noqa: ARG002
         """Begin all tracks.
 
         Raises:
@@ -88,12 +88,12 @@ class Scripted(Crowd):
 class ScriptedSession(CrowdSession):
     """Tracks under way; those from `given` on are recorded, and there only while they were observed."""
 
-    def __init__(self, tracks: tuple[Track, ...], given: int, member: Mover) -> None:
+    def __init__(self, tracks: tuple[Track, ...], scripted: int, member: Mover) -> None:
         self.members = (member,) * len(tracks)
         self._ways = [_way(track) for track in tracks]
         self._loop = [track.loop for track in tracks]
         self._levels = np.array([track.level for track in tracks], np.int16)
-        self._recorded = np.arange(len(tracks)) >= given
+        self._recorded = np.arange(len(tracks)) >= scripted
         self._now = 0.0
         self._yaw = np.array([_first_yaw(way) for way in self._ways])
         self._place = np.array([self._at(index, 0.0) for index in range(len(tracks))]).reshape(-1, 2)
@@ -111,7 +111,7 @@ class ScriptedSession(CrowdSession):
             level=np.where(away, -1, self._levels).astype(np.int16),
         )
 
-    def step(self, dt: float, seen: CrowdView) -> Movers:  # noqa: ARG002
+    def step(self, dt: float, view: CrowdView) -> Movers:  # noqa: ARG002
         """Follow the tracks for `dt` seconds."""
         self._now += dt
         place = np.array([self._at(index, self._now) for index in range(len(self._ways))]).reshape(-1, 2)

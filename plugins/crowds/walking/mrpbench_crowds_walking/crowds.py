@@ -70,15 +70,15 @@ class _Walking(Crowd):
     )
     reaction: Reaction = option("regular", help="what they do when they see a robot, in the words of HuNavSim")
 
-    def start(self, world: World, fleet: Fleet, seed: int, seen: CrowdView) -> CrowdSession:
+    def start(self, world: World, fleet: Fleet, seed: int, view: CrowdView) -> CrowdSession:
         """Place the people.
 
         Raises:
             InputError: there is no such level, no room, or a place is not free.
         """
-        own = {field.name for field in attrs.fields(_Walking)}
-        options = {name: value for name, value in attrs.asdict(self, recurse=False).items() if name not in own}
-        return WalkingSession(self, options, world, fleet, seed, seen)
+        common = {field.name for field in attrs.fields(_Walking)}
+        options = {name: value for name, value in attrs.asdict(self, recurse=False).items() if name not in common}
+        return WalkingSession(self, options, world, fleet, seed, view)
 
 
 @attrs.frozen(kw_only=True)

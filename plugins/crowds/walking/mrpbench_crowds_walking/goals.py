@@ -170,14 +170,14 @@ def activities_on(world: World, level: int, floor: Floor) -> tuple[Activity, ...
     Raises:
         InputError: people on this level begin with such an activity.
     """
-    kept = []
+    activities = []
     for activity in world.activities:
         here = [floor.nearest(place) for place in activity.places[activity.level == level]]
         places = np.array([place for place in here if place is not None], float).reshape(-1, 2)
-        kept.append(attrs.evolve(activity, places=places, level=np.full(len(places), level, np.int16)))
+        activities.append(attrs.evolve(activity, places=places, level=np.full(len(places), level, np.int16)))
     lost = {
         index
-        for index, (before, after) in enumerate(zip(world.activities, kept, strict=True))
+        for index, (before, after) in enumerate(zip(world.activities, activities, strict=True))
         if len(before.places) and not len(after.places)
     }
     for group in world.people:
@@ -186,7 +186,7 @@ def activities_on(world: World, level: int, floor: Floor) -> tuple[Activity, ...
             raise InputError(f"crowds: nobody comes to a place of {name!r} on level {level} of world {world.name}")
     return tuple(
         attrs.evolve(activity, following=tuple(pair for pair in activity.following if pair[0] not in lost))
-        for activity in kept
+        for activity in activities
     )
 
 

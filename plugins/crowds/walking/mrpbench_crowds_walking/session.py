@@ -50,7 +50,7 @@ class WalkingSession(CrowdSession):
     """The people of one crowd; `recipe` has the options of `_Walking`, `options` those of the native code."""
 
     def __init__(
-        self, recipe: Any, options: Mapping[str, Any], world: World, fleet: Fleet, seed: int, seen: CrowdView
+        self, recipe: Any, options: Mapping[str, Any], world: World, fleet: Fleet, seed: int, view: CrowdView
     ) -> None:
         if recipe.level >= len(world.levels):
             raise InputError(f"crowds: world {world.name} has no level {recipe.level}")
@@ -74,7 +74,7 @@ class WalkingSession(CrowdSession):
         self._aside = self._turns()
         drawn = np.random.default_rng([seed % 2**64, 2**32])
         self._places = self._floor.places[drawn.integers(len(self._floor.places), size=recipe.places)]
-        start = self._starts(drawn, seen)
+        start = self._starts(drawn, view)
         self._goals = self._all_goals(world, start)
         self._detours = Detours(
             self._floor, recipe.radius, start, lambda person, number: self._draws(person, 2**33 + number)
@@ -118,26 +118,26 @@ class WalkingSession(CrowdSession):
         """Doors near people who walk towards them, and doors in which somebody stands."""
         return self._wanted
 
-    def step(self, dt: float, seen: CrowdView) -> Movers:
+    def step(self, dt: float, view: CrowdView) -> Movers:
         """Walk for `dt` seconds."""
         place = self._walkers.place
-        robots = np.flatnonzero(seen.state.level == self._level)
-        pose, twist = seen.state.pose[robots], seen.state.twist[robots]
-        others = np.flatnonzero(seen.others.level == self._level)
+        robots = np.flatnonzero(view.state.level == self._level)
+        pose, twist = view.state.pose[robots], view.state.twist[robots]
+        others = np.flatnonzero(view.others.level == self._level)
         ahead = np.column_stack([np.cos(pose[:, 2]), np.sin(pose[:, 2])])
         discs = np.vstack(
             [
                 np.hstack([pose[:, :2], ahead * twist[:, :1]]),
-                np.hstack([seen.others.pose[others, :2], seen.others.velocity[others]]),
+                np.hstack([view.others.pose[others, :2], view.others.velocity[others]]),
             ]
         )
-        radius = np.concatenate([self._robot_radius[robots], seen.radius[others]])
+        radius = np.concatenate([self._robot_radius[robots], view.radius[others]])
         arrivals = self._arrivals
         velocity, push, regard, looks = self._wishes(dt, place, pose, radius[: len(robots)])
         arrived: Bool = np.greater(self._arrivals, arrivals)
         self._give_way(dt, place, velocity, arrived, discs[:, :2], radius)
         wishes = {"velocity": velocity, "push": push, "regard": regard}
-        leaves = self._facilities.outlines(seen.state.facilities, self._level) if seen.state.facilities else _NO_LEAVES
+        leaves = self._facilities.outlines(view.state.facilities, self._level) if view.state.facilities else _NO_LEAVES
         self._walkers.step(dt, wishes, discs, radius, len(robots), np.ascontiguousarray(leaves))
         self._look(dt, looks)
         self._wanted = self._doors_ahead(velocity)
@@ -221,7 +221,7 @@ class WalkingSession(CrowdSession):
 
     def _all_goals(self, world: World, start: Float) -> tuple[Goals, Goals]:
         """The goals of people who are not `given`, and of those who are."""
-        recipe, (group, own), (begin, begin_own) = (
+        recipe, (group, places), (begin, begin_own) = (
             self._recipe,
             np.split(self._group, [self._people]),
             np.split(start, [self._people]),
@@ -247,7 +247,7 @@ class WalkingSession(CrowdSession):
             first = ActivityGoals(group, self._draws, reach, activities, begun, begin)
         else:
             first = PlaceGoals(group, self._draws, reach, drawn, begin, recipe.stay)
-        return first, PlaceGoals(own, draws_own, reach, stated, begin_own, recipe.stay)
+        return first, PlaceGoals(places, draws_own, reach, stated, begin_own, recipe.stay)
 
     def _groups(self) -> Int:
         """Groups i8[m], -1 = none; those that are `given` come last."""
@@ -259,7 +259,7 @@ class WalkingSession(CrowdSession):
 
     def _speeds(self) -> Float:
         recipe = self._recipe
-        drawn = [own.normal(recipe.speed, recipe.speed_deviation) for own in self._random]
+        drawn = [stream.normal(recipe.speed, recipe.speed_deviation) for stream in self._random]
         speed: Float = np.clip(np.array(drawn, float), min(0.5, recipe.speed), 2.2)
         for index, person in enumerate(recipe.given):
             if person.speed is not None:
@@ -268,21 +268,21 @@ class WalkingSession(CrowdSession):
 
     def _turns(self) -> Float:
         """Rotations f8[m,2,2] of the wanted velocity, a little to the right: `orca` would stop head-on."""
-        own = [stream.normal(ASIDE, ASIDE / 4) if self._recipe.orca else 0.0 for stream in self._random]
-        cosine, sine = np.cos(own), np.sin(own)
+        angle = [stream.normal(ASIDE, ASIDE / 4) if self._recipe.orca else 0.0 for stream in self._random]
+        cosine, sine = np.cos(angle), np.sin(angle)
         rotation: Float = np.stack([cosine, sine, -sine, cosine], axis=-1).reshape(-1, 2, 2)
         return rotation
 
-    def _starts(self, drawn: np.random.Generator, seen: CrowdView) -> Float:
+    def _starts(self, drawn: np.random.Generator, view: CrowdView) -> Float:
         """Given places first, then those near which activities begin, or random ones; nobody overlaps a body.
 
         Raises:
             InputError: a given place is not free, or there is no room.
         """
         recipe, taken = self._recipe, []
-        robots, others = seen.state.level == recipe.level, seen.others.level == recipe.level
-        bodies = np.vstack([seen.state.pose[robots, :2], seen.others.pose[others, :2]])
-        reach = np.concatenate([self._robot_radius[robots], seen.radius[others]]) + recipe.radius
+        robots, others = view.state.level == recipe.level, view.others.level == recipe.level
+        bodies = np.vstack([view.state.pose[robots, :2], view.others.pose[others, :2]])
+        reach = np.concatenate([self._robot_radius[robots], view.radius[others]]) + recipe.radius
         for index, person in enumerate(recipe.given):
             for place in map(np.array, (person.start, *person.goals)):
                 if not self._floor.reaches(np.array(person.start), place.astype(float)):

@@ -19,8 +19,8 @@ def local_plan(robot: int, name: str, world: World) -> TopicSource:
     def rows(block: Chunk) -> Rows | None:
         if "trajectory_pose" not in block:
             return None
-        own = (block["trajectory_robot"] == robot) & (block["trajectory_chosen"] == 1)
-        times, planar = block["trajectory_time"][own], block["trajectory_pose"][own].astype(float)
+        chosen = (block["trajectory_robot"] == robot) & (block["trajectory_chosen"] == 1)
+        times, planar = block["trajectory_time"][chosen], block["trajectory_pose"][chosen].astype(float)
         height = np.zeros(len(times))
         if "level" in block:
             sample = np.searchsorted(block["time"], times, side="right") - 1

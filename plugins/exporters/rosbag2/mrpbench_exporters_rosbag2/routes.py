@@ -25,11 +25,11 @@ def routes(block: Chunk, context: RunContext, start: int) -> Iterator[tuple[int,
         stamp = int(nanoseconds(rows["route_time"][0])) + start
         yield stamp, TOPIC, packed(rows)
         for robot, name in enumerate(context.fleet.names):
-            own = rows["route_robot"] == robot
+            chosen = rows["route_robot"] == robot
             route = Route(
-                waypoint=rows["route_waypoint"][own],
-                level=rows["route_level"][own],
-                speed=rows["route_speed"][own][1:],
+                waypoint=rows["route_waypoint"][chosen],
+                level=rows["route_level"][chosen],
+                speed=rows["route_speed"][chosen][1:],
             )
             topic, data = path(context, name, route, np.full(len(route.waypoint), stamp), stamp)
             yield stamp, topic, data

@@ -31,7 +31,7 @@ def scan(robot: int, name: str, lidar: Lidar) -> TopicSource:
     def rows(block: Chunk) -> Rows | None:
         if "scan_ranges" not in block:
             return None
-        own = block["scan_robot"] == robot
-        return block["scan_time"][own], {"ranges": block["scan_ranges"][own, : lidar.beams]}
+        chosen = block["scan_robot"] == robot
+        return block["scan_time"][chosen], {"ranges": block["scan_ranges"][chosen, : lidar.beams]}
 
     return TopicSource(topic, Template(topic.type, value, {"ranges": ranges}), rows)

@@ -10,8 +10,7 @@ from mcap_ros2.decoder import DecoderFactory
 
 from mrpbench_core.model.common.fleet import Fleet, Lidar, RobotModel
 from mrpbench_core.model.execution.route import Route
-from mrpbench_core.model.planning.plan import Path as TimedPath
-from mrpbench_core.model.planning.plan import Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import Plan, PlanResult, PlanStatus, RobotPath
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario, Task
@@ -54,8 +53,8 @@ def context() -> RunContext:
     )
     plan = Plan(
         paths=(
-            TimedPath(edge=[-1, 0], enter=[0, 1], leave=[1, 3]),
-            TimedPath(edge=[], enter=[], leave=[]),
+            RobotPath(edge=[-1, 0], enter=[0, 1], leave=[1, 3]),
+            RobotPath(edge=[], enter=[], leave=[]),
         )
     )
     return RunContext(

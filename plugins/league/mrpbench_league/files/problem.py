@@ -153,11 +153,11 @@ def _read_cells(file: Path, blocked: Bool, *, single: bool) -> list[tuple[int, l
 
 
 def _require_distinct(file: Path, starts: list[tuple[int, list[int]]]) -> None:
-    seen: dict[int, int] = {}
+    line_of: dict[int, int] = {}
     for number, (cell,) in starts:
-        if cell in seen:
-            raise InputError(f"cell {cell} is the start of line {seen[cell]} too", file=file, line=number)
-        seen[cell] = number
+        if cell in line_of:
+            raise InputError(f"cell {cell} is the start of line {line_of[cell]} too", file=file, line=number)
+        line_of[cell] = number
 
 
 def _is_whole(word: str) -> bool:

@@ -29,7 +29,7 @@ class Done:
 def follow_goals(problem: LorrProblem, cells: Int32) -> Done:
     """2023: each robot has a queue of goals; one that is reached is replaced at once."""
     robots, lines = cells.shape[1], len(problem.first) - 1
-    done, given = Done(), [0] * robots
+    done, drawn_by_robot = Done(), [0] * robots
     queues: list[deque[int]] = [deque() for _ in range(robots)]
     goal = np.full(robots, -1)
     drawn = 0
@@ -37,13 +37,13 @@ def follow_goals(problem: LorrProblem, cells: Int32) -> Done:
     def reveal(robot: int, time: int) -> None:
         nonlocal drawn
         while len(queues[robot]) < problem.reveal:
-            line = drawn if problem.strategy == "greedy" else given[robot] * robots + robot
+            line = drawn if problem.strategy == "greedy" else drawn_by_robot[robot] * robots + robot
             if line >= lines and problem.strategy != "roundrobin":
                 break
             queues[robot].append(len(done.revealed))
             done.events.append((time, robot, len(done.revealed), 0))
             done.revealed.append((line % lines, time))
-            given[robot], drawn = given[robot] + 1, drawn + 1
+            drawn_by_robot[robot], drawn = drawn_by_robot[robot] + 1, drawn + 1
         goal[robot] = problem.errands[done.revealed[queues[robot][0]][0]] if queues[robot] else -1
 
     for robot in range(robots):

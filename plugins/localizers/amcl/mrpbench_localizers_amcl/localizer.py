@@ -9,7 +9,7 @@ from mrpbench_native.amcl import options
 
 from mrpbench_core.api import Localizer, LocalizerSession, option
 from mrpbench_core.api.described import described
-from mrpbench_core.api.nav2 import as_parameter, not_used, parameter, settle
+from mrpbench_core.api.nav2 import as_parameter, not_used, parameter, resolve_options
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.nav2 import OF_EVERY_NODE
 from mrpbench_core.files.nav2_file import Nav2File
@@ -94,7 +94,7 @@ class Amcl(Localizer):
         Raises:
             InputError: the Nav2 file has an error.
         """
-        return settle(self) if self.nav2 is None else self._read(self.nav2)[0]
+        return resolve_options(self) if self.nav2 is None else self._read(self.nav2)[0]
 
     def _read(self, nav2: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
         """Return the values of all parameters, and notes on what the Nav2 file says without effect."""
@@ -107,7 +107,7 @@ class Amcl(Localizer):
                 raise file.missing("amcl")
             block.not_used(*OF_EVERY_NODE, *_NOT_USED)
             skips = block.take("do_beamskip", bool, False)
-            values = settle(self, block)
+            values = resolve_options(self, block)
             if skips and values["laser_model_type"] == "likelihood_field_prob":
                 raise block.error("skipping beams is not implemented", "do_beamskip")
             return values, not_used(block)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from mrpbench_localizers_amcl import Amcl
 
-from mrpbench_core.api.nav2 import settle
+from mrpbench_core.api.nav2 import resolve_options
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.testing.fixtures.room import fleet, room
 
@@ -69,7 +69,7 @@ def test_defaults_are_nav2s():
     """The file above is Nav2's default file, except for the values that the tests change."""
     lines = [line.strip().split(": ") for line in NAV2.splitlines()[2:]]
     theirs = {name: value.strip('"') for name, value in lines}
-    ours = settle(Amcl())
+    ours = resolve_options(Amcl())
     for name, value in ours.items():
         if name in ("alpha1", "max_particles") or name.startswith("initial_cov"):
             continue

@@ -70,7 +70,7 @@ class Efficiency(Metric):
         planned = np.array([math.fsum(np.hypot(*np.diff(route.waypoint[:, :2], axis=0).T)) for route in context.routes])
         arrival = arrival_times(run)
         before = ~(time[1:, None] > arrival)  # steps that end at the arrival or sooner
-        driven = np.array([math.fsum(own) for own in np.where(before, steps(run.channel("truth")), 0.0).T])
+        driven = np.array([math.fsum(lengths) for lengths in np.where(before, steps(run.channel("truth")), 0.0).T])
         arrived = moving & np.isfinite(arrival)
         share = np.where(arrived, shortest, 0.0)[moving] / np.maximum(driven, shortest)[moving]
         return {

@@ -65,25 +65,25 @@ class Encounters:
     """f8[T,m,2] m/s."""
 
 
-def hunav(time: Float, pose: Float, twist: Float, seen: Encounters) -> dict[str, float | None]:
+def hunav(time: Float, pose: Float, twist: Float, encounters: Encounters) -> dict[str, float | None]:
     """Return the values of `COLUMNS` for one robot, None where there is nobody.
 
     Args:
         time: f8[T] s.
         pose: f8[T,3] metres and radians.
         twist: f8[T,2] m/s and rad/s.
-        seen: the people.
+        encounters: the people.
     """
-    here = np.isfinite(seen.gap)
+    here = np.isfinite(encounters.gap)
     met = here.any(axis=1)
-    closest = np.maximum(seen.gap.min(axis=1), 0.0)
-    speed = _length(seen.person)
-    nearest = speed[np.arange(len(time)), seen.gap.argmin(axis=1)]
+    closest = np.maximum(encounters.gap.min(axis=1), 0.0)
+    speed = _length(encounters.person)
+    nearest = speed[np.arange(len(time)), encounters.gap.argmin(axis=1)]
     turn = np.diff(pose[:, 2])
     still = (np.abs(twist) < STANDING).all(axis=1)
-    relative = seen.robot[:, None] - seen.person
-    on_robot = np.where(here[..., None], social_force(seen.offset, relative), 0.0).sum(axis=1)
-    on_people = np.where(here, _length(social_force(-seen.offset, -relative)), 0.0)
+    relative = encounters.robot[:, None] - encounters.person
+    on_robot = np.where(here[..., None], social_force(encounters.offset, relative), 0.0).sum(axis=1)
+    on_people = np.where(here, _length(social_force(-encounters.offset, -relative)), 0.0)
     values = {
         **{
             f"{space}_space_intrusions": 100.0 * ((closest >= low) & (closest < high)).mean()

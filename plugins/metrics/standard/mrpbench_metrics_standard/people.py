@@ -182,12 +182,12 @@ def _meet(run: FinishedRun, robot: int, there: Bool, pause: float) -> _Met:
     here = there & (run.channel("mover_level") == level[:, None])
     gap = np.where(here, np.hypot(offset[..., 0], offset[..., 1]) - reach, np.inf)
     left = time_to_collision(offset, mover[..., 3:] - velocity[:, None], reach)
-    seen = Encounters(gap=gap, offset=offset, robot=velocity, person=mover[..., 3:])
+    encounters = Encounters(gap=gap, offset=offset, robot=velocity, person=mover[..., 3:])
     return _Met(
         nearest=gap.min(axis=1),
         robot=_to_robots(run, robot),
         soonest=np.where(here, left, np.inf).min(axis=1),
-        hunav=hunav(run.channel("time"), pose, twist, seen),
+        hunav=hunav(run.channel("time"), pose, twist, encounters),
         moved=contacts_of(model.footprint, run.channel("time"), pose, mover[..., :2], radius, gap, pause),
     )
 

@@ -61,4 +61,4 @@ def blocked_times(time: Float, along: Float, going: Bool, window: float, distanc
     """Seconds f8[n] for which each robot is blocked."""
     spent = np.diff(time, prepend=time[0])
     blocked = blocked_intervals(time, along, going, window, distance)
-    return np.array([spent[own].sum() for own in blocked.T], float)
+    return np.array([spent[samples].sum() for samples in blocked.T], float)

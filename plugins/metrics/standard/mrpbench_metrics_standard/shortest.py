@@ -16,15 +16,15 @@ def shortest_lengths(problem: Problem) -> Float:
     for profile in np.unique(problem.profile):
         robots = np.flatnonzero(problem.profile == profile)
         stages = {robot: [(int(problem.start[robot]),), *problem.goals[robot]] for robot in robots}
-        sources = sorted({vertex for own in stages.values() for stage in own[:-1] for vertex in stage})
-        targets = sorted({vertex for own in stages.values() for stage in own[1:] for vertex in stage})
+        sources = sorted({vertex for of_robot in stages.values() for stage in of_robot[:-1] for vertex in stage})
+        targets = sorted({vertex for of_robot in stages.values() for stage in of_robot[1:] for vertex in stage})
         if not targets:
             continue
         length = _lengths(problem, int(profile), sources, targets)
         row, column = ({vertex: index for index, vertex in enumerate(names)} for names in (sources, targets))
-        for robot, own in stages.items():
+        for robot, of_robot in stages.items():
             so_far = np.zeros(1)
-            for before, after in pairwise(own):
+            for before, after in pairwise(of_robot):
                 leg = length[np.ix_([row[vertex] for vertex in before], [column[vertex] for vertex in after])]
                 so_far = (so_far[:, None] + leg).min(axis=0)
             lengths[robot] = so_far.min()

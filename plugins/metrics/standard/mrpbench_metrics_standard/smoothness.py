@@ -76,14 +76,15 @@ class Smoothness(Metric):
             return nulls(self)
         time, truth = _regular(run.channel("time"), run.channel("truth"))
         length = steps(truth)
-        truth = truth[:, [math.fsum(own) >= self.least for own in length.T]]
+        truth = truth[:, [math.fsum(column) >= self.least for column in length.T]]
         if not truth.size:
             return nulls(self)
         length, turned = steps(truth), turns(truth)
         moves = length >= self.speed * np.diff(time)[:, None]
         way = math.fsum(length[moves])
         jerks = [
-            _normalised_jerk(time, track, own) for track, own in zip(np.moveaxis(truth, 1, 0), moves.T, strict=True)
+            _normalised_jerk(time, track, column)
+            for track, column in zip(np.moveaxis(truth, 1, 0), moves.T, strict=True)
         ]
         return {
             "angle_over_length": math.fsum(turned.ravel()) / math.fsum(length.ravel()),

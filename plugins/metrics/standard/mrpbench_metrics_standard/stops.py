@@ -64,7 +64,7 @@ class Stops(Metric):
         moved = np.logical_or.accumulate(going & ~still, axis=0)
         _, first, after = periods(standing & moved)
         lasted = np.where(standing, spent, 0.0)
-        each = [math.fsum(own) for own in lasted.T]
+        each = [math.fsum(column) for column in lasted.T]
         released = None
         if run.has("released"):
             routes = run.context.routes

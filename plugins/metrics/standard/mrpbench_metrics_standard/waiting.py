@@ -92,7 +92,7 @@ class Waiting(Metric):
             f"{name}_s": math.fsum(waited[kinds == kind])
             for name, kind in (("doors", "door"), ("lifts", "lift"), ("mutexes", "mutex"))
         }
-        values["longest_s"] = max((math.fsum(own) for own in waited.T), default=0.0)
+        values["longest_s"] = max((math.fsum(column) for column in waited.T), default=0.0)
         values["rides"] = int((np.diff(run.channel("level"), axis=0) != 0).sum())
         values["riding_s"] = math.fsum(np.where(riding, spent, 0.0).ravel())
         values |= _by_cause(run, spent)

@@ -8,14 +8,14 @@ from hypothesis import strategies as st
 from mrpbench_metrics_standard import Delay, Fairness
 from mrpbench_metrics_standard.fairness import jain
 
-from mrpbench_core.model.planning.plan import Path, Plan, PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import Plan, PlanResult, PlanStatus, RobotPath
 
 # One tick is 0.5 s: planned arrivals 2.5 s, 1.5 s (then a wait at the goal), 0 s.
 PLAN = Plan(
     paths=(
-        Path(edge=[0, -1, 1], enter=[0, 2, 3], leave=[2, 3, 5]),
-        Path(edge=[4, -1], enter=[0, 3], leave=[3, 20]),
-        Path(edge=[], enter=[], leave=[]),
+        RobotPath(edge=[0, -1, 1], enter=[0, 2, 3], leave=[2, 3, 5]),
+        RobotPath(edge=[4, -1], enter=[0, 3], leave=[3, 20]),
+        RobotPath(edge=[], enter=[], leave=[]),
     )
 )
 

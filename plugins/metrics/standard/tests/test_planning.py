@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from mrpbench_metrics_standard import Planning
 
-from mrpbench_core.model.planning.plan import Path, PlanStatus
+from mrpbench_core.model.planning.plan import PlanStatus, RobotPath
 
-TO_THE_END = Path(edge=[0, -1, 1], enter=[0, 2, 3], leave=[2, 3, 5])  # 0 -> 1, wait, 1 -> 2
-AND_BACK = Path(edge=[4, -1], enter=[0, 3], leave=[3, 20])  # 0 -> 3, then waits at its goal
-AT_HOME = Path(edge=[], enter=[], leave=[])
+TO_THE_END = RobotPath(edge=[0, -1, 1], enter=[0, 2, 3], leave=[2, 3, 5])  # 0 -> 1, wait, 1 -> 2
+AND_BACK = RobotPath(edge=[4, -1], enter=[0, 3], leave=[3, 20])  # 0 -> 3, then waits at its goal
+AT_HOME = RobotPath(edge=[], enter=[], leave=[])
 
 
 def test_costs_are_arrival_times(planned):

@@ -13,7 +13,7 @@ import numpy as np
 from attrs.validators import ge, gt, optional
 
 from mrpbench_core.api import Controller, Navigator, NavigatorSession, option
-from mrpbench_core.api.nav2 import controller_server, not_used, parameter, settle
+from mrpbench_core.api.nav2 import controller_server, not_used, parameter, resolve_options
 from mrpbench_core.api.recovery import Recovery
 from mrpbench_core.files.nav2_file import Nav2File
 from mrpbench_core.model.common.fleet import Fleet
@@ -128,7 +128,7 @@ class Waypoints(Navigator):
         Raises:
             InputError: the file has a checker or value that is not supported.
         """
-        values = settle(self)
+        values = resolve_options(self)
         if self.nav2 is not None:
             found, _ = self._checkers(self.nav2)
             values |= {name: value for name, value in found.items() if getattr(self, name) is None}

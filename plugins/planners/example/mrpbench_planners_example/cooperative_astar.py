@@ -14,7 +14,7 @@ from typing import ClassVar, Literal
 import attrs
 import numpy as np
 
-from mrpbench_core.api import Budget, Path, Plan, Planner, PlanResult, PlanStatus, Problem, Promise, option
+from mrpbench_core.api import Budget, Plan, Planner, PlanResult, PlanStatus, Problem, Promise, RobotPath, option
 
 Graph = list[dict[int, int]]
 """For each vertex, its neighbours and the edges that lead to them."""
@@ -48,7 +48,7 @@ class Example(Planner):
             )  # proved: a robot cannot reach its goal even when it is alone
         robots = range(len(problem))
         reserved = Reservations()
-        paths: dict[int, Path] = {}
+        paths: dict[int, RobotPath] = {}
         for robot in sorted(robots, key=lambda robot: -alone[robot]) if self.order == "farthest_first" else robots:
             try:
                 route = search(forth, starts[robot], goals[robot], distances[robot], reserved, deadline)
@@ -58,7 +58,7 @@ class Example(Planner):
                 return PlanResult(status=PlanStatus.GAVE_UP, lower_bound=sum(alone))
             reserved.add(route)
             edge = np.array([forth[tail].get(head, -1) for tail, head in pairwise(route)], np.int32)
-            paths[robot] = Path(edge=edge, enter=np.arange(len(edge)), leave=np.arange(len(edge)) + 1)
+            paths[robot] = RobotPath(edge=edge, enter=np.arange(len(edge)), leave=np.arange(len(edge)) + 1)
         plan = Plan(paths=tuple(paths[robot] for robot in robots))
         return PlanResult(status=PlanStatus.SOLVED, plan=plan, lower_bound=sum(alone))
 

@@ -13,8 +13,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Planner, Promise, option
-from mrpbench_core.model.planning.plan import Budget, Plan, PlanResult, PlanStatus
-from mrpbench_core.model.planning.plan import Path as TimedPath
+from mrpbench_core.model.planning.plan import Budget, Plan, PlanResult, PlanStatus, RobotPath
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_planners_external.movingai import vertex_at, why_not, write_map, write_scen
 from mrpbench_planners_external.outputs import READERS, Cells, UnreadableError
@@ -172,7 +171,7 @@ class External(Planner):
         return [str(self.binary.resolve()), *(word.format_map(fields) for word in shlex.split(self.command_line))]
 
 
-def _paths(problem: Problem, cells: Cells) -> Iterable[TimedPath]:
+def _paths(problem: Problem, cells: Cells) -> Iterable[RobotPath]:
     """Timed paths along edges of the roadmap; the engine judges whether they solve the problem."""
     if len(cells) != len(problem):
         raise UnreadableError(f"it has paths of {len(cells)} robots instead of {len(problem)}")
@@ -191,4 +190,4 @@ def _paths(problem: Problem, cells: Cells) -> Iterable[TimedPath]:
         if not path or vertex.get(path[0]) != problem.start[robot]:
             raise UnreadableError(f"robot {robot} does not begin at its start")
         time = np.arange(len(steps) + 1, dtype=np.int64)
-        yield TimedPath(edge=np.array(steps, np.int32), enter=time[:-1], leave=time[1:])
+        yield RobotPath(edge=np.array(steps, np.int32), enter=time[:-1], leave=time[1:])

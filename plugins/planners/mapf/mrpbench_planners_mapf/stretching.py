@@ -25,7 +25,7 @@ import numpy as np
 from mrpbench_core.dispatching.rotations import cycle_of_moves
 from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.model.planning.type2_edges import Type2Edges, moves_of, type2_edges
 
@@ -81,8 +81,8 @@ class _Orders:
 
     def _committed(self, problem: Problem) -> Bool:
         """The edges bool[e] whose later move is committed."""
-        kept = np.array([len(path) for path in problem.commitments] or [0] * len(problem))
-        committed: Bool = self.moves.segment[self.after] < kept[self.moves.robot[self.after]]
+        committed_moves = np.array([len(path) for path in problem.commitments] or [0] * len(problem))
+        committed: Bool = self.moves.segment[self.after] < committed_moves[self.moves.robot[self.after]]
         return committed
 
     def _cyclic(self, edges: Type2Edges) -> Bool:
@@ -145,20 +145,20 @@ def _moved(plan: Plan, orders: _Orders, shift: Int) -> Plan:
     """The plan with each move shifted, and waits in between."""
     paths, moves = [], orders.moves
     for robot, path in enumerate(plan.paths):
-        own = slice(moves.first[robot], moves.first[robot + 1])
-        late = shift[own]
+        rows = slice(moves.first[robot], moves.first[robot + 1])
+        late = shift[rows]
         if not late.any():
             paths.append(path)
             continue
-        first = int(moves.segment[own][np.flatnonzero(late)[0]])  # the path is as before until there
+        first = int(moves.segment[rows][np.flatnonzero(late)[0]])  # the path is as before until there
         edge, enter, leave = path.edge[:first].tolist(), path.enter[:first].tolist(), path.leave[:first].tolist()
-        begins, ends = (moves.enter[own] + late).tolist(), (moves.leave[own] + late).tolist()
-        for segment, begin, end in zip(moves.segment[own].tolist(), begins, ends, strict=True):
+        begins, ends = (moves.enter[rows] + late).tolist(), (moves.leave[rows] + late).tolist()
+        for segment, begin, end in zip(moves.segment[rows].tolist(), begins, ends, strict=True):
             if segment < first:
                 continue
             now = leave[-1] if leave else int(path.enter[0])
             if begin > now:
                 edge, enter, leave = [*edge, -1], [*enter, now], [*leave, begin]
             edge, enter, leave = [*edge, int(path.edge[segment])], [*enter, begin], [*leave, end]
-        paths.append(Path(edge=edge, enter=enter, leave=leave))
+        paths.append(RobotPath(edge=edge, enter=enter, leave=leave))
     return Plan(paths=tuple(paths))

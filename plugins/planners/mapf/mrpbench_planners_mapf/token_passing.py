@@ -45,15 +45,17 @@ class TokenPassing(Planner):
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """Plan the robots whose paths in force do not lead to their goals."""
-        given = problem
+        reduced = problem
         if problem.remaining:
             remaining = Paths.of(problem.remaining)
             size = np.where(_leads_to_goals(problem), remaining.size, 0)
-            kept = remaining.part(np.zeros_like(size), size)
-            commitments = Paths.of(problem.commitments).then(kept) if problem.commitments else kept
-            given = attrs.evolve(problem, commitments=commitments, remaining=())
+            remaining_paths = remaining.part(np.zeros_like(size), size)
+            commitments = (
+                Paths.of(problem.commitments).then(remaining_paths) if problem.commitments else remaining_paths
+            )
+            reduced = attrs.evolve(problem, commitments=commitments, remaining=())
         # Robots whose paths are kept plan first, because nothing is left for them to plan.
-        return solve(given, budget, Prioritized.algorithm, {"order": "shortest_first", "seed": budget.seed})
+        return solve(reduced, budget, Prioritized.algorithm, {"order": "shortest_first", "seed": budget.seed})
 
 
 def _leads_to_goals(problem: Problem) -> Bool:

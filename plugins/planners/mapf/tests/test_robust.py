@@ -18,7 +18,7 @@ from mrpbench_tests.oracles.optimum import least_sum_of_costs
 
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.planning.conflicts import exclusions
-from mrpbench_core.model.planning.plan import Budget, Path, Plan, PlanStatus
+from mrpbench_core.model.planning.plan import Budget, Plan, PlanStatus, RobotPath
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.model.planning.roadmap import Resource
 from mrpbench_core.testing.drawing import problem
@@ -42,7 +42,7 @@ def conflicts_if_late(asked: Problem, plan: Plan, k: int) -> bool:
     return False
 
 
-def late_paths(path: Path, k: int):
+def late_paths(path: RobotPath, k: int):
     yield path
     for segment, ticks in itertools.product(range(len(path)), range(1, k + 1)):
         enter, leave = path.enter.copy(), path.leave.copy()
@@ -50,8 +50,8 @@ def late_paths(path: Path, k: int):
         leave[segment:] += ticks
         yield attrs.evolve(path, enter=enter, leave=leave)
     for ticks in range(1, k + 1):  # late already at the start
-        wait = Path(edge=[-1], enter=[0], leave=[ticks])
-        yield Path(
+        wait = RobotPath(edge=[-1], enter=[0], leave=[ticks])
+        yield RobotPath(
             edge=np.concatenate([wait.edge, path.edge]),
             enter=np.concatenate([wait.enter, path.enter + ticks]),
             leave=np.concatenate([wait.leave, path.leave + ticks]),

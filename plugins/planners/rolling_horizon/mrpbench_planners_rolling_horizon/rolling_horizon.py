@@ -13,7 +13,7 @@ import numpy as np
 from mrpbench_core.api.component import option
 from mrpbench_core.api.planner import Planner, PlannerSession, Promise
 from mrpbench_core.model.common.arrays import Int, Int32
-from mrpbench_core.model.planning.plan import Budget, Path, Paths, Plan, PlanResult, PlanStatus, waits
+from mrpbench_core.model.planning.plan import Budget, Paths, Plan, PlanResult, PlanStatus, RobotPath, waits
 from mrpbench_core.model.planning.problem import Feature, Problem, ends_of
 from mrpbench_core.model.planning.type2_edges import moves_of
 from mrpbench_core.model.planning.visits import left, visited_goals
@@ -81,16 +81,16 @@ class RollingHorizon(Planner):
 class RollingHorizonSession(PlannerSession):
     """Plans new parts with a session of another planner, which is `given` another problem."""
 
-    def __init__(self, session: PlannerSession, given: Callable[[Problem], Problem]) -> None:
-        self._session, self._given = session, given
+    def __init__(self, session: PlannerSession, with_horizon: Callable[[Problem], Problem]) -> None:
+        self._session, self._given = session, with_horizon
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """Plan from rest, after what is committed."""
-        given = self._given(problem)
-        result = self._session.plan(given, budget)
+        windowed = self._given(problem)
+        result = self._session.plan(windowed, budget)
         plan = result.plan
-        if plan is not None and problem.horizon is not None and given.horizon is None:
-            plan = until(problem.horizon - _rest(problem), given, plan)
+        if plan is not None and problem.horizon is not None and windowed.horizon is None:
+            plan = until(problem.horizon - _rest(problem), windowed, plan)
         if plan is not None:
             plan = after_commitments(problem, plan)
         status = PlanStatus.GAVE_UP if result.status == PlanStatus.UNSOLVABLE else result.status
@@ -119,7 +119,7 @@ def from_rest(problem: Problem) -> Problem:
     )
 
 
-def _from_rest(problem: Problem) -> Sequence[Path]:
+def _from_rest(problem: Problem) -> Sequence[RobotPath]:
     """What remains of the paths in force, all as much later as robots need to come to rest, counted from then on."""
     if not problem.remaining:
         return ()

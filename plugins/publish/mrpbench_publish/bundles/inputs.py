@@ -54,12 +54,12 @@ def collect_inputs(expected: Iterable[Expected], folder: Path, patterns: Sequenc
         if not fnmatch.filter(names, pattern):
             raise InputError(f"--leave-out {pattern} matches no input", hint="inputs: " + (", ".join(names) or "none"))
     left_out = {name for pattern in patterns for name in fnmatch.filter(names, pattern)}
-    kept = {place: file for (place, file), name in zip(files.items(), names, strict=True) if name not in left_out}
+    included = {place: file for (place, file), name in zip(files.items(), names, strict=True) if name not in left_out}
     return Inputs(
-        files=kept,
+        files=included,
         names=frozenset(names),
         folder=base or ".",
-        programs=frozenset(name for name, file in kept.items() if os.access(file, os.X_OK)),
+        programs=frozenset(name for name, file in included.items() if os.access(file, os.X_OK)),
         left_out={name: digest(folder / name) for name in sorted(left_out)},
     )
 

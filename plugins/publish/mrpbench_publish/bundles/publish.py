@@ -145,10 +145,10 @@ def _expected(
 def _require_each_once(folders: Sequence[Results]) -> None:
     if not any(map(len, folders)):
         raise InputError("no run is recorded here yet", file=folders[0].folder.path)
-    seen: dict[str, Results] = {}
+    results_of: dict[str, Results] = {}
     for results in folders:
         for record in results:
-            other = seen.setdefault(record["run_id"], results)
+            other = results_of.setdefault(record["run_id"], results)
             if other is not results:
                 raise InputError(
                     f"run {record['run_id']} is also in {other.folder.path}",
@@ -212,14 +212,14 @@ def _require_one_version(folders: Sequence[Results], expected: Sequence[Expected
 
 def _recordings(folders: Sequence[Results], share: float) -> dict[str, Path | bytes]:
     """The recordings to include by name in the bundle, and their instances."""
-    kept: dict[str, tuple[Results, dict[str, Any]]] = {}
+    recorded: dict[str, tuple[Results, dict[str, Any]]] = {}
     for results in folders if share else ():
         for record in results:
             if any("  recordings/" in line for line in (record.get("provenance") or {}).get("files") or ()):
-                kept[record["run_id"]] = results, record
+                recorded[record["run_id"]] = results, record
     files: dict[str, Path | bytes] = {}
-    for run_id in drawn(kept, share):
-        results, record = kept[run_id]
+    for run_id in drawn(recorded, share):
+        results, record = recorded[run_id]
         file = results.paths(run_id).recording
         if not file.is_file():
             raise InputError("is no longer there", file=file, hint="`--recordings none` publishes the records alone")

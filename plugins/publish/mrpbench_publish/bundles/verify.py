@@ -182,8 +182,8 @@ def _recordings(bundle: Opened, records: Sequence[Stored], runs: dict[str, Study
         try:
             faults_of_run = call_in_worker(recording_faults, run.parcel, run.facts, stored.record, str(file))
             for metric in run.facts["others_metrics"] if stored.record.get("metrics") else ():
-                given = run.parcel, run.facts, metric["number"], stored.record, str(file)
-                faults_of_run += call_in_worker(measured_faults, *given)
+                arguments = run.parcel, run.facts, metric["number"], stored.record, str(file)
+                faults_of_run += call_in_worker(measured_faults, *arguments)
         except CallFailedError as failure:
             faults_of_run = [f"its recording cannot be checked: {failure}"]
         faults += [(stored.run_id, fault) for fault in faults_of_run]

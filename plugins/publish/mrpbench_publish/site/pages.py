@@ -82,8 +82,8 @@ def write_site(entries: Sequence[Entry], boards: Sequence[Board], title: str, fo
 
 def _template() -> PageTemplate:
     report = resources.files("mrpbench_core.report.html") / "template"
-    own = resources.files(__package__) / "template"
-    styles = [*(report / name for name in ("style.css", "tables.css", "narrow.css")), own / "site.css"]
+    folder = resources.files(__package__) / "template"
+    styles = [*(report / name for name in ("style.css", "tables.css", "narrow.css")), folder / "site.css"]
     return page_shell(styles, [report / "theme.js", report / "tables.js"])
 
 

@@ -44,8 +44,8 @@ def find_candidates(study: StudyRuns, choices: Sequence[str] = CHOICES) -> list[
     """
     configs: dict[str, list[StudyRun]] = {}
     for point in study.runs:
-        own = {key: value for key, value in point.canonical.items() if key not in NO_AXES}
-        configs.setdefault(json.dumps(own), []).append(point)
+        identifying = {key: value for key, value in point.canonical.items() if key not in NO_AXES}
+        configs.setdefault(json.dumps(identifying), []).append(point)
     settings: dict[str, Setting] = {}
     for axes, points in zip(find_axes([json.loads(text) for text in configs]), configs.values(), strict=True):
         chosen = {key: value for key, value in axes.items() if _is_of(key, choices)}

@@ -36,14 +36,14 @@ class Protocol:
         Raises:
             InputError: the file has other blocks, or lacks the one that is judged.
         """
-        given = load(file).data
-        if not isinstance(given, Mapping) or self.needs not in given:
+        document = load(file).data
+        if not isinstance(document, Mapping) or self.needs not in document:
             raise InputError(f"{self.needs}: is missing", file=file, hint=f"{self.name} judges this block")
-        for key in given:
+        for key in document:
             if key not in self.allows:
                 hint = f"a candidate gives {' and '.join(self.allows)}"
                 raise InputError(f"{key}: {self.name} does not leave it open", file=file, hint=hint)
-        return {**load(FOLDER / f"{self.name}.yaml").data, **given}
+        return {**load(FOLDER / f"{self.name}.yaml").data, **document}
 
 
 PROTOCOLS = {

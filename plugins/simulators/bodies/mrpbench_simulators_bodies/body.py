@@ -47,8 +47,8 @@ class Shape:
 
     def corners(self) -> Float:
         """Points f8[k,3] in the base frame whose convex hull is the shape, to a two-hundredth of its radius."""
-        own = self._own_corners()
-        placed: Float = own @ self.frame[:3, :3].T + self.frame[:3, 3]
+        local = self._own_corners()
+        placed: Float = local @ self.frame[:3, :3].T + self.frame[:3, 3]
         return placed
 
     def _own_corners(self) -> Float:

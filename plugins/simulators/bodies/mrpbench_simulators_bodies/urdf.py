@@ -146,7 +146,7 @@ class _Reader:
             name: float(numbers(inertial.find("inertia"), name, (0.0,), self._file)[0])
             for name in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
         }
-        own = np.array(
+        inertia = np.array(
             [
                 (entries["ixx"], entries["ixy"], entries["ixz"]),
                 (entries["ixy"], entries["iyy"], entries["iyz"]),
@@ -154,7 +154,7 @@ class _Reader:
             ]
         )
         turn = placed[:3, :3]
-        return mass, placed[:3, 3], turn @ own @ turn.T
+        return mass, placed[:3, 3], turn @ inertia @ turn.T
 
 
 def _steiner(place: Float) -> Float:

@@ -127,12 +127,12 @@ class PlanarSimulation(Simulation):
             return ()
         stamp = self._periods * self._period
         batches = []
-        radius, seen = self._robot_radius, np.ascontiguousarray(self._movers.seen)
-        if len(seen):
+        radius, discs = self._robot_radius, np.ascontiguousarray(self._movers.seen)
+        if len(discs):
             radius = np.concatenate([radius, self._movers.seen_radius])
         for lidar, robots in due:
             scanning = np.array(robots, np.int32)
-            ranges = self._casters[lidar].scan(scanning, self._pose, seen, radius, self._leaves)
+            ranges = self._casters[lidar].scan(scanning, self._pose, discs, radius, self._leaves)
             batches.append(ScanBatch(stamp=stamp, robot=scanning, ranges=ranges))
         return tuple(batches)
 

@@ -13,7 +13,7 @@ from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.observation import Estimate, FleetObservation, Odometry
 from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.execution.state import Inputs
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.runs.routing import Router
@@ -67,7 +67,7 @@ def ring_problem(cell: float, rings: int, turns: int, seed: int, columns: int = 
         at = np.cumsum([0, *np.where(ways, -1, 1)]) % size
         for robot_at in range(size):
             vertex = (at + robot_at) % size
-            paths.append(Path(edge=2 * size * ring + size * ways + vertex[:-1], enter=time, leave=time + 1))
+            paths.append(RobotPath(edge=2 * size * ring + size * ways + vertex[:-1], enter=time, leave=time + 1))
             goals.append((((size * ring + int(vertex[-1])),),))
     count = size * rings
     fleet = Fleet(robots=(model,) * count)

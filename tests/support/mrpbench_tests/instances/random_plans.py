@@ -7,7 +7,7 @@ import numpy as np
 
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.model.common.arrays import Int32
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.planning.problem import Feature, Problem, Rules
 from mrpbench_core.model.planning.roadmap import Resource, Roadmap
 from mrpbench_core.testing.drawing import build, timed_path
@@ -63,7 +63,7 @@ def random_starts(random: Random, roadmap: Roadmap) -> Problem:
     return problem if check_plan(problem, nowhere).valid else attrs.evolve(problem, radius=np.full(robots, 0.1))
 
 
-def wander(problem: Problem, random: Random, paths: Sequence[Path], ticks: int) -> Plan:
+def wander(problem: Problem, random: Random, paths: Sequence[RobotPath], ticks: int) -> Plan:
     """Lengthen paths by a random walk without conflicts: proposed moves are dropped while they conflict."""
     edges = problem.roadmap.edges
     begin = max((int(path.leave[-1]) for path in paths if len(path)), default=0)
@@ -112,7 +112,7 @@ def _ring(random: Random, edges: Int32, at: Mapping[int, int]) -> dict[int, int]
     return {}
 
 
-def _moved(problem: Problem, robot: int, path: Path, edge: int | None, now: int) -> Path:
+def _moved(problem: Problem, robot: int, path: RobotPath, edge: int | None, now: int) -> RobotPath:
     """A path with a move from tick `now`, and a wait before it if needed."""
     if edge is None:
         return path
@@ -135,7 +135,7 @@ def squeeze(problem: Problem, random: Random, plan: Plan, tries: int = 40) -> Pl
             segment = random.choice(waits)
             ticks = int(random.integers(1, path.leave[segment] - path.enter[segment] + 1))
             at = np.arange(len(path))
-            shorter = Path(
+            shorter = RobotPath(
                 edge=path.edge, enter=path.enter - ticks * (at > segment), leave=path.leave - ticks * (at >= segment)
             )
             changed = Plan(paths=(*plan.paths[:robot], shorter, *plan.paths[robot + 1 :]))

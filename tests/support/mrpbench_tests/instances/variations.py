@@ -3,7 +3,7 @@
 import attrs
 import numpy as np
 
-from mrpbench_core.model.planning.plan import Path, Plan
+from mrpbench_core.model.planning.plan import Plan, RobotPath
 from mrpbench_core.model.planning.problem import Feature, Problem, features_of
 from mrpbench_core.model.planning.roadmap import Resource
 from mrpbench_core.testing.drawing import timed_path
@@ -34,16 +34,16 @@ def with_late_release(random: Random, problem: Problem) -> Problem:
     return _with_commitments(problem, (late, _first_of(late, 0)))
 
 
-def _first_of(path: Path, size: int) -> Path:
-    return Path(edge=path.edge[:size], enter=path.enter[:size], leave=path.leave[:size])
+def _first_of(path: RobotPath, size: int) -> RobotPath:
+    return RobotPath(edge=path.edge[:size], enter=path.enter[:size], leave=path.leave[:size])
 
 
-def _with_commitments(problem: Problem, released: tuple[Path, ...]) -> Problem:
+def _with_commitments(problem: Problem, released: tuple[RobotPath, ...]) -> Problem:
     changed = attrs.evolve(problem, commitments=released)
     return attrs.evolve(changed, features=features_of(changed) | problem.features)
 
 
-def _wandering(random: Random, problem: Problem, robot: int) -> Path:
+def _wandering(random: Random, problem: Problem, robot: int) -> RobotPath:
     edge, times, at = [], [0], int(problem.start[robot])
     for _ in range(int(random.integers(3))):
         ways = np.flatnonzero((problem.roadmap.edges[:, 0] == at) & (problem.duration(robot) > 0))

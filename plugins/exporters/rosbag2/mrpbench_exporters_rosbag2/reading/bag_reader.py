@@ -10,8 +10,8 @@ from mrpbench_core.api.format import SOURCES, Observed, Track
 from mrpbench_core.files.errors import InputError, one_line
 from mrpbench_exporters_rosbag2.messages import SECOND
 from mrpbench_exporters_rosbag2.reading.collected import Collected, Patterns
+from mrpbench_exporters_rosbag2.reading.mrpbench_topics import MrpbenchTopics
 from mrpbench_exporters_rosbag2.reading.names import natural, robot_in, wanted, without_robot
-from mrpbench_exporters_rosbag2.reading.own import Own
 from mrpbench_exporters_rosbag2.reading.series import Ordered, Span, longest_even_span
 from mrpbench_exporters_rosbag2.reading.signals import Signals
 from mrpbench_exporters_rosbag2.reading.stream import Stream
@@ -39,8 +39,8 @@ class BagReader:
             for alone in (False, True):
                 patterns, bases = self._patterns(alone)
                 collected, signals = Collected(), Signals(patterns=self._signals(alone))
-                own = Own(topics, signals)
-                takers = (patterns.takers(topics, collected), signals.takers(topics), own.takers())
+                ours = MrpbenchTopics(topics, signals)
+                takers = (patterns.takers(topics, collected), signals.takers(topics), ours.takers())
                 takes = {
                     topic: [taker[topic] for taker in takers if topic in taker] for taker in takers for topic in taker
                 }
@@ -54,7 +54,7 @@ class BagReader:
                 span, notes = self._span(collected)
                 best = self._best(collected, span, bases, robots, SOURCES)
                 if best:
-                    begin = own.begin
+                    begin = ours.begin
                     if begin is None:
                         begin = min(int(placed.poses.stamps[0]) for placed in best)
                     tracks = tuple(placed.track(begin) for placed in best)
@@ -66,10 +66,10 @@ class BagReader:
                         tracks=tracks,
                         estimates=tuple(placed.track(begin) for placed in believed),
                         signals=tuple(s for s in signals.placed(clocks, anybody, span, begin) if s.robot in names),
-                        context=own.context,
-                        channels=own.channels(),
+                        context=ours.context,
+                        channels=ours.channels(),
                         complete=stream.complete,
-                        notes=tuple(dict.fromkeys((*stream.notes, *own.notes, *notes))),
+                        notes=tuple(dict.fromkeys((*stream.notes, *ours.notes, *notes))),
                     )
             raise self._nothing(path, robots, topics, stream.notes)
 

@@ -67,14 +67,14 @@ class Collected:
 
     def of_transforms(self, tree: str, topic: str, static: bool) -> Take:
         """Takes transforms; of a frame with two parents, those of the first."""
-        kept = self.static if static else self.frames
+        series_of = self.static if static else self.frames
 
         def take(logged: int, message: Any) -> None:
             for said in message.transforms:
                 child, parent = said.child_frame_id.lstrip("/"), said.header.frame_id.lstrip("/")
-                series = kept.get((tree, child))
+                series = series_of.get((tree, child))
                 if series is None:
-                    series = kept[tree, child] = Series(f"{topic}: {parent} to {child}", parent)
+                    series = series_of[tree, child] = Series(f"{topic}: {parent} to {child}", parent)
                 if series.frame == parent:
                     place = said.transform
                     series.add_transform(nanoseconds(said.header.stamp), logged, place.translation, place.rotation)

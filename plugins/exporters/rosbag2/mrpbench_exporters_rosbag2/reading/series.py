@@ -61,11 +61,11 @@ class Series:
     def ordered(self, use_log: bool, since: int, until: int) -> "Ordered | None":
         """Poses with `since` <= log time < `until` in order of time, of equal stamps the last; None if none."""
         logged = np.array(self.logged, np.int64)
-        kept = np.flatnonzero((logged >= since) & (logged < until))
-        if not len(kept):
+        rows = np.flatnonzero((logged >= since) & (logged < until))
+        if not len(rows):
             return None
         stamps = logged if use_log else np.array(self.stamps, np.int64)
-        order = kept[np.argsort(stamps[kept], kind="stable")]
+        order = rows[np.argsort(stamps[rows], kind="stable")]
         times = stamps[order]
         last = np.append(np.diff(times) > 0, True)
         order = order[last]

@@ -60,13 +60,19 @@ class Signals:
             stamps = logged if span.use_log else np.array(said.stamps, np.int64)
             if not span.use_log and not stamps.any():
                 stamps = logged + _ahead(clocks.get(robot, anybody), logged)
-            kept = np.flatnonzero((logged >= span.since) & (logged < span.until))
-            kept = kept[np.argsort(stamps[kept], kind="stable")]
-            kept = kept[np.append(np.diff(stamps[kept]) > 0, True)] if len(kept) else kept
-            if len(kept):
-                rows = table([said.rows[index] for index in kept])
+            chosen_rows = np.flatnonzero((logged >= span.since) & (logged < span.until))
+            chosen_rows = chosen_rows[np.argsort(stamps[chosen_rows], kind="stable")]
+            chosen_rows = (
+                chosen_rows[np.append(np.diff(stamps[chosen_rows]) > 0, True)] if len(chosen_rows) else chosen_rows
+            )
+            if len(chosen_rows):
+                rows = table([said.rows[index] for index in chosen_rows])
                 yield Signal(
-                    robot=robot, channel=channel, topic=said.topic, time=(stamps[kept] - begin) / SECOND, rows=rows
+                    robot=robot,
+                    channel=channel,
+                    topic=said.topic,
+                    time=(stamps[chosen_rows] - begin) / SECOND,
+                    rows=rows,
                 )
 
 

@@ -21,7 +21,7 @@ from mrpbench_core.model.runs.status import RunStatus, Stage
 from mrpbench_core.plugins.local import refuse_local
 from mrpbench_core.referee.asked import Asked
 from mrpbench_core.referee.measuring import measure
-from mrpbench_core.referee.verdict import Ending, finished_run, judge
+from mrpbench_core.referee.verdict import Failure, finished_run, judge
 from mrpbench_core.store.instances import InstanceFolder
 from mrpbench_core.store.recording import Recording
 
@@ -108,9 +108,9 @@ def _faults(
     of_others = {metric["number"] for metric in facts["others_metrics"]}
     ours = [number for number in range(len(parcel["config"]["metrics"])) if number not in of_others]
     verdict = judge(asked, recording, recording.instance_name, _metrics(parcel, ours), _said(record))
-    status = RunStatus.SUCCEEDED if verdict.ending is None else verdict.ending.status
+    status = RunStatus.SUCCEEDED if verdict.failure is None else verdict.failure.status
     if status != record["status"]:
-        why = "" if verdict.ending is None else f": {verdict.ending.message}"
+        why = "" if verdict.failure is None else f": {verdict.failure.message}"
         yield f"has the status {record['status']}, and its recording shows {status}{why}"
     if jsonable(verdict.plan) != (record.get("plan") or {}):
         yield "its plan has another problem, cost or bound than the record says"
@@ -130,11 +130,11 @@ def _differences(record: Mapping[str, Any], metrics: Mapping[str, Any], unmeasur
         yield "other values cannot be measured than the record says"
 
 
-def _said(record: Mapping[str, Any]) -> Ending | None:
+def _said(record: Mapping[str, Any]) -> Failure | None:
     error = record.get("error")
     if not error:
         return None
-    return Ending(status=RunStatus(record["status"]), stage=Stage(error["stage"]), message=error["message"])
+    return Failure(status=RunStatus(record["status"]), stage=Stage(error["stage"]), message=error["message"])
 
 
 def _times(record: Mapping[str, Any], recording: Recording) -> Iterator[str]:

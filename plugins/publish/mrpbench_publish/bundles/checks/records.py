@@ -34,13 +34,13 @@ def record_faults(bundle: Opened) -> Iterator[Fault | str]:
         content = shard.read_bytes()
         if content and not content.endswith(b"\n"):
             yield shard.name, "ends in the middle of a record"
-    seen: set[tuple[str, int]] = set()
+    attempts: set[tuple[str, int]] = set()
     for stored in bundle.records():
         record = stored.record
         attempt = record.get("attempt", 1)
-        if (stored.run_id, attempt) in seen:
+        if (stored.run_id, attempt) in attempts:
             yield stored.run_id, f"has two records of attempt {attempt}"
-        seen.add((stored.run_id, attempt))
+        attempts.add((stored.run_id, attempt))
         for key in ("seed", "repeat"):
             if record.get(key) != record["config"].get(key):
                 yield stored.run_id, f"its {key} is not the one of its configuration"

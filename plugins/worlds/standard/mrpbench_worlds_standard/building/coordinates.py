@@ -87,10 +87,10 @@ def _image_frames(levels: Mapping[str, Node], notes: Notes) -> dict[str, Frame]:
     frames = {reference: Frame(scale=scale, project=_flip)}
     targets = _fiducials(first)
     for name, level in others:
-        own = _fiducials(level)
-        common = [mark for mark in own if mark in targets]
-        if len({own[mark] for mark in common}) >= 2 and len({targets[mark] for mark in common}) >= 2:
-            frames[name] = _align([own[mark] for mark in common], [targets[mark] for mark in common], scale)
+        fiducials = _fiducials(level)
+        common = [mark for mark in fiducials if mark in targets]
+        if len({fiducials[mark] for mark in common}) >= 2 and len({targets[mark] for mark in common}) >= 2:
+            frames[name] = _align([fiducials[mark] for mark in common], [targets[mark] for mark in common], scale)
             continue
         if level.section("vertices"):
             notes.add(
@@ -111,19 +111,19 @@ def _fiducials(level: Node) -> dict[str, tuple[float, float]]:
     return marks
 
 
-def _align(own: list[tuple[float, float]], target: list[tuple[float, float]], scale: float) -> Frame:
+def _align(source: list[tuple[float, float]], target: list[tuple[float, float]], scale: float) -> Frame:
     """Return the frame that aligns fiducials with those of the reference level, as `rmf_building_map_tools` does.
 
     It is the mean rotation and the mean ratio of distances over all pairs of fiducials, then the mean translation.
     """
     turns, ratios = [], []
-    for (p, q), (s, t) in zip(itertools.combinations(own, 2), itertools.combinations(target, 2), strict=True):
+    for (p, q), (s, t) in zip(itertools.combinations(source, 2), itertools.combinations(target, 2), strict=True):
         if p != q and s != t:
             turns.append(_bearing(s, t) - _bearing(p, q))
             ratios.append(math.dist(p, q) / math.dist(s, t))
     rotation = math.atan2(sum(map(math.sin, turns)), sum(map(math.cos, turns)))
     ratio = sum(ratios) / len(ratios)
-    rest = np.array(target) - np.array(own) @ _turn(rotation) / ratio
+    rest = np.array(target) - np.array(source) @ _turn(rotation) / ratio
     x, y = (rest.mean(axis=0) * scale).tolist()
     return Frame(scale=scale / ratio, rotation=rotation, shift=(x, y), project=_flip)
 

@@ -96,7 +96,7 @@ def _ended(activity: Activity, node: Node, states: dict[str, Node], index: dict[
     if not sum(weight for _, weight in following):
         following = ()
     condition = parts.get("Condition")
-    kind = "" if condition is None else _kind(condition)
+    kind = "" if condition is None else _type_of(condition)
     if kind in ("and", "or") and condition is not None:
         first, second = (condition.fields().get(f"condition{number}") for number in (1, 2))
         inner = [_condition(part) for part in (first, second) if part is not None]
@@ -111,7 +111,7 @@ def _ended(activity: Activity, node: Node, states: dict[str, Node], index: dict[
 
 def _condition(node: Node) -> dict[str, Any]:
     """What a simple condition says of the end of an activity; {} = not supported."""
-    parts, kind = node.fields(), _kind(node)
+    parts, kind = node.fields(), _type_of(node)
     if kind == "goal_reached":
         return {"reach": _positive(node, "distance")}
     if kind == "timer":
@@ -126,7 +126,7 @@ def _condition(node: Node) -> dict[str, Any]:
     return {}
 
 
-def _kind(node: Node) -> str:
+def _type_of(node: Node) -> str:
     return node.fields()["type"].text() if "type" in node.fields() else ""
 
 

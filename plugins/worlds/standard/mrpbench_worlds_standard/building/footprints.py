@@ -31,8 +31,8 @@ class Footprint:
 class Footprints:
     """Finds footprints by the name of a model, with or without its owner (`OpenRobotics/Desk`, `Desk`)."""
 
-    def __init__(self, own: Path | None = None) -> None:
-        self._table = _shipped() if own is None else _shipped() | _read(own, estimated=False)
+    def __init__(self, file: Path | None = None) -> None:
+        self._table = _shipped() if file is None else _shipped() | _read(file, estimated=False)
 
     def get(self, model: str) -> Footprint | None:
         """Return the footprint, or None if no table has the model."""

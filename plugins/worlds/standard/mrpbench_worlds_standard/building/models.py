@@ -71,12 +71,12 @@ def _off_lanes(
     if not lanes:
         return tuple(obstacle for _, obstacle in models)
     start, end = np.array([ends[0] for _, ends in lanes]), np.array([ends[1] for _, ends in lanes])
-    kept = []
+    obstacles = []
     blocked: dict[str, list[str]] = defaultdict(list)
     for model, obstacle in models:
         clear = has_clearance(Level(name="", obstacles=(obstacle,)), start, end, clearance)
         if clear.all() or not obstacle.estimated:
-            kept.append(obstacle)
+            obstacles.append(obstacle)
         else:
             blocked[model].append(lanes[int(np.flatnonzero(~clear)[0])][0])
     for model, names in blocked.items():
@@ -85,4 +85,4 @@ def _off_lanes(
             f"model {model!r}: its estimated footprint is within {clearance:g} m of a lane and is left out there "
             f"({listed}; {len(names)} in all)"
         )
-    return tuple(kept)
+    return tuple(obstacles)

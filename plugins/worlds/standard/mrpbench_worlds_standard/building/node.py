@@ -24,14 +24,14 @@ class Node:
         if self.value in (None, []):
             return {}
         if not isinstance(self.value, dict):
-            raise self.error(f"should be a mapping, not {_kind(self.value)}")
+            raise self.error(f"should be a mapping, not {_type_name(self.value)}")
         return {key: Node(self.document, value, (*self.steps, key)) for key, value in self.value.items()}
 
     def items(self, least: int = 0) -> "list[Node]":
         """Return the values of a sequence, at least `least`; none if it is absent or empty, as `{}` or `[]`."""
         value = [] if self.value in (None, {}) else self.value
         if not isinstance(value, list):
-            raise self.error(f"should be a sequence, not {_kind(value)}")
+            raise self.error(f"should be a sequence, not {_type_name(value)}")
         if len(value) < least:
             raise self.error(f"should have at least {least} values, not {len(value)}")
         return [Node(self.document, item, (*self.steps, index)) for index, item in enumerate(value)]
@@ -44,19 +44,19 @@ class Node:
     def number(self) -> float:
         """Return a finite number, at most `LIMIT`."""
         if isinstance(self.value, bool) or not isinstance(self.value, int | float) or not abs(self.value) <= LIMIT:
-            raise self.error(f"should be a number within ±{LIMIT:g}, not {_kind(self.value)}")
+            raise self.error(f"should be a number within ±{LIMIT:g}, not {_type_name(self.value)}")
         return float(self.value)
 
     def integer(self) -> int:
         """Return a whole number."""
         if isinstance(self.value, bool) or not isinstance(self.value, int):
-            raise self.error(f"should be a whole number, not {_kind(self.value)}")
+            raise self.error(f"should be a whole number, not {_type_name(self.value)}")
         return self.value
 
     def text(self) -> str:
         """Return a text; a number, which the editor writes without quotes too, as the file spells it."""
         if isinstance(self.value, dict | list):
-            raise self.error(f"should be text, not {_kind(self.value)}")
+            raise self.error(f"should be text, not {_type_name(self.value)}")
         return self.document.text(self.steps) or ""
 
     def index(self, count: int, what: str) -> int:
@@ -72,6 +72,6 @@ class Node:
         return self.document.error(message, self.steps, key=key, hint=hint)
 
 
-def _kind(value: Any) -> str:
+def _type_name(value: Any) -> str:
     names = {dict: "a mapping", list: "a sequence", type(None): "nothing"}
     return names.get(type(value), repr(value)[:40])

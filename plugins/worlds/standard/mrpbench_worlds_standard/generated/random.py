@@ -46,5 +46,5 @@ def _largest_part(blocked: Bool) -> Bool:
         edges.append(np.stack([number[here][both], number[there][both]], axis=1))
     label = components(blocked.size, np.concatenate(edges))
     count = np.bincount(label[~blocked.ravel()], minlength=1)
-    kept: Bool = (label == count.argmax()).reshape(blocked.shape) & ~blocked
-    return ~kept
+    largest: Bool = (label == count.argmax()).reshape(blocked.shape) & ~blocked
+    return ~largest

@@ -17,7 +17,7 @@ from mrpbench_core.model.planning.problem import Problem
 
 
 @attrs.frozen(kw_only=True)
-class Ending:
+class FailureReasons:
     """The fleet at the end of an execution, of which `reasons` explains why robots did not arrive."""
 
     problem: Problem

@@ -26,8 +26,8 @@ TF = "/tf"
 KINDS = {"released": "i4", "reached": "i4", "cleared": "i4", "mode": "u1", "level": "i2"}
 
 
-class Own:
-    """Collects them."""
+class MrpbenchTopics:
+    """Collects the messages of the topics that only mrpbench writes."""
 
     def __init__(self, topics: dict[str, str], signals: Signals) -> None:
         """`topics` give types by name; `signals` are those of the same pass."""

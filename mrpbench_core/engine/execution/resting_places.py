@@ -46,7 +46,7 @@ class Neighbourhoods:
         )
 
 
-class Taken:
+class RestingPlaces:
     """The vertices at which robots come to rest, and what they leave to others."""
 
     def __init__(self, near: Neighbourhoods) -> None:
