@@ -12,6 +12,7 @@ DEFAULT = (
     "mrpbench-league",
     "mrpbench-publish",
     "mrpbench-replay",
+    "mrpbench-scaffold",
 )
 EXTRAS = {
     "dask": "mrpbench-executors-dask",

@@ -23,7 +23,7 @@ from mrpbench_core.files.platforms import require_posix
 from mrpbench_core.version import __version__
 
 COMMANDS = {
-    "demo": "run a small office scenario, end to end, in under a minute",
+    "demo": "compare two planners on a small scenario, with all that is installed",
     "init": "write a commented configuration that runs",
     "run": "do the runs of a study that have no record yet",
     "report": "print tables of results with intervals, and write an HTML page",
@@ -32,7 +32,6 @@ COMMANDS = {
     "world": "print the facts and faults of a map, draw it, convert it",
     "plugins": "list installed plugins, or show the options of one",
     "check": "check a plugin against the contract of its kind",
-    "new-plugin": "write a working plugin to start from",
     "schema": "print the JSON Schema of configurations, for editors",
     "completion": "print a script with which shells complete commands and options",
     "info": "print facts about machine and installation, for bug reports",
@@ -119,7 +118,8 @@ def _list_of_commands() -> str:
             unusable += f"\n{summary}"
         else:
             listed[name] = summary
-    lines = "".join(f"  {name:<10} {summary}\n" for name, summary in listed.items())
+    width = max(map(len, listed))
+    lines = "".join(f"  {name:<{width}} {summary}\n" for name, summary in listed.items())
     return f"commands:\n{lines}\n`mrpbench COMMAND --help` describes a command.{unusable}"
 
 

@@ -9,9 +9,9 @@ import typing
 from pathlib import Path
 
 import pytest
+from mrpbench_scaffold.kinds import TEMPLATES
 
 from mrpbench_core import api
-from mrpbench_core.cli.scaffold.kinds import TEMPLATES
 
 ROOT = Path(__file__).parents[2]
 SURFACE = (Path(__file__).parent / "surface.txt").read_text().split()

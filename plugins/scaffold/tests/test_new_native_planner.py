@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-HOW_TO = Path(__file__).parents[2] / "docs/how-to"
+HOW_TO = Path(__file__).parents[3] / "docs/how-to"
 HEADERS = re.compile(r"`(mrpbench_mapf/[\w/]+\.hpp)`")
 PLANS = """
 from mrpbench_core.checking.plan import check_plan
@@ -60,13 +60,13 @@ def test_the_distribution_of_native_holds_headers_libraries_and_a_cmake_package(
 
 
 def test_headers_of_the_libraries_do_not_use_python():
-    native = Path(__file__).parents[2] / "native/include"
+    native = Path(__file__).parents[3] / "native/include"
     texts = {path: path.read_text() for path in native.rglob("*.hpp")}
     assert not [path for path, text in texts.items() if "Python.h" in text or "nanobind" in text]
 
 
 def test_headers_that_the_page_names_exist(page):
-    include = Path(__file__).parents[2] / "native/include"
+    include = Path(__file__).parents[3] / "native/include"
     named = HEADERS.findall(page)
     assert len(named) > 8
     assert not [header for header in named if not (include / header).is_file()]

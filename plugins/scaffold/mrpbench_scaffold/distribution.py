@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from string import Template
 
-from mrpbench_core.cli.scaffold.kinds import TEMPLATES
-from mrpbench_core.cli.scaffold.plugin import Form, Plugin
 from mrpbench_core.files.errors import InputError
+from mrpbench_scaffold.kinds import TEMPLATES
+from mrpbench_scaffold.plugin import Form, Plugin
 
 _LIBRARIES = {"attrs": "attrs>=24.2", "numpy": "numpy>=1.26"}
 """Libraries that templates may import, and what the distribution then requires."""

@@ -9,12 +9,12 @@ from importlib.metadata import EntryPoint
 from pathlib import Path
 
 import pytest
+from mrpbench_scaffold.kinds import kinds
 
 from mrpbench_core.api import KINDS
-from mrpbench_core.cli.scaffold.kinds import kinds
 from mrpbench_core.testing import SUITES, run_checks
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture

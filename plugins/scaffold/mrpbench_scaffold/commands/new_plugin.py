@@ -3,9 +3,9 @@
 import argparse
 from pathlib import Path
 
-from mrpbench_core.cli.scaffold.distribution import write
-from mrpbench_core.cli.scaffold.kinds import kinds
-from mrpbench_core.cli.scaffold.plugin import Form, named
+from mrpbench_scaffold.distribution import write
+from mrpbench_scaffold.kinds import kinds
+from mrpbench_scaffold.plugin import Form, named
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

@@ -8,12 +8,12 @@ from typing import Literal
 import attrs
 from packaging.version import Version
 
-from mrpbench_core.cli.scaffold.kinds import TEMPLATES, Kind, facts_of, kinds
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import suggest
 from mrpbench_core.plugins.installed import installed
 from mrpbench_core.plugins.kinds import asked_kind, group_of
 from mrpbench_core.version import __version__
+from mrpbench_scaffold.kinds import TEMPLATES, Kind, facts_of, kinds
 
 NAME = re.compile(r"[a-z][a-z0-9]*([_-][a-z0-9]+)*")
 Form = Literal["python", "native", "external"]

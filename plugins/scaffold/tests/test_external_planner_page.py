@@ -7,15 +7,14 @@ import sys
 from pathlib import Path
 
 import pytest
-
-from mrpbench_core.cli.scaffold.distribution import contents
-from mrpbench_core.cli.scaffold.plugin import named
+from mrpbench_scaffold.distribution import contents
+from mrpbench_scaffold.plugin import named
 
 pytestmark = [
     pytest.mark.skipif("MRPBENCH_ALL_PAGES" not in os.environ, reason="`make pages` follows this page"),
     pytest.mark.timeout(600),
 ]
-PAGE = (Path(__file__).parents[2] / "docs/how-to/planner-external.md").read_text()
+PAGE = (Path(__file__).parents[3] / "docs/how-to/planner-external.md").read_text()
 CALLED = """\
 #!{python} -IS
 import os, re, runpy, sys

@@ -8,7 +8,7 @@ import attrs
 
 from mrpbench_core.plugins.kinds import in_order
 
-TEMPLATES: Traversable = resources.files("mrpbench_core.cli.scaffold").joinpath("templates")
+TEMPLATES: Traversable = resources.files("mrpbench_scaffold").joinpath("templates")
 _IN_CONFIGURATION = "In a configuration: `$kind: {plugin: $name$yaml}`."
 
 
