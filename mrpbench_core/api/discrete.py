@@ -74,7 +74,7 @@ class DiscreteSimulator(Simulator):
         """Execute a run; equal arguments give equal channels, unless the clock is read (`DiscreteRun.iterations`).
 
         Raises:
-            InputError: the world is no raster, or the tasks are not of a kind that it executes.
+            InputError: the world is not a raster, or the tasks are not of a kind that it executes.
         """
 
     def open(self, *_: Any, **__: Any) -> Simulation:

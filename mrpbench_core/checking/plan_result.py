@@ -32,7 +32,7 @@ def result_fault(result: Any) -> str | None:
     if not isinstance(result.history, tuple | list) or not all(
         isinstance(point, AnytimePoint) for point in result.history
     ):
-        return "returned a history that is no tuple of AnytimePoint"
+        return "returned a history that is not a tuple of AnytimePoint"
     if result.plan is not None and result.status not in (PlanStatus.SOLVED, PlanStatus.TIMEOUT):
         return f"returned a plan with the status {result.status}"
     return None

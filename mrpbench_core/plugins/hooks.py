@@ -94,7 +94,7 @@ class Hooks:
                 LOG.warning("hook plugin %r: %s", name, said)
 
     def _fault(self, plugin: object) -> str | None:
-        """Why a registered plugin is no hook plugin, or None."""
+        """Why a registered plugin is not a hook plugin, or None."""
         callers = self._manager.get_hookcallers(plugin) or []
         for caller in callers:
             if not caller.has_spec():

@@ -122,7 +122,7 @@ def _one_by_one() -> tuple[list[metadata.EntryPoint], dict[str, str]]:
         try:
             facts = _facts(owner)  # the first distribution of a name is the one that is imported
             entries.setdefault(facts["distribution"], list(owner.entry_points))
-        except Exception as error:  # noqa: BLE001 - a file that is no text, a link to itself, and what else there may be
+        except Exception as error:  # noqa: BLE001 - a file that is not text, a link to itself, and what else there may be
             faults[_folder(owner)] = f"has entry points that cannot be read: {one_line(error)}"
     return list(chain.from_iterable(entries.values())), faults
 

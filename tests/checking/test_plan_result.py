@@ -33,7 +33,7 @@ def solved(**values):
         (solved(statistics={5: 1.0}), "the statistic 5, a value of type float, which is not"),
         (solved(statistics={"nodes": 2**63}), "the statistic nodes, a value of type int, which is not"),
         (solved(clock_bound=np.zeros(2)), "type ndarray instead of whether the clock decided"),
-        (solved(history=[(0.1, 3.0)]), "a history that is no tuple of AnytimePoint"),
+        (solved(history=[(0.1, 3.0)]), "a history that is not a tuple of AnytimePoint"),
         (solved(status=PlanStatus.UNSOLVABLE), "a plan with the status unsolvable"),
     ],
 )

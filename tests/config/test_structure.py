@@ -125,7 +125,7 @@ def test_validators_that_compare_options_are_asked(errors):
     (line,) = errors(BASE + "controller: {plugin: dwb, max_speed: 0.2, min_speed: 0.3}")
     assert line == "some.yaml:4:54: controller.min_speed: min_speed exceeds max_speed"
     lines = errors(BASE + "controller: {plugin: dwb, max_speed: x, min_speed: 0.3}")
-    assert len(lines) == 2  # it is compared with the default, since the other value is no number
+    assert len(lines) == 2  # it is compared with the default, since the other value is not a number
     assert errors(BASE + "simulator: {timestep: 13}") == ["some.yaml:4:12: simulator: 13 is unlucky"]
 
 

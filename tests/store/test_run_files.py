@@ -45,7 +45,7 @@ def test_links_and_fifos_that_a_format_left_are_passed_over(paths, tmp_path):
 
 @pytest.mark.parametrize("name", [b"a\nb", b"a\x1b[31m", b"\xff", b"folder\n/file"])
 def test_files_whose_names_no_line_can_hold_have_no_sum(paths, name):
-    file = os.path.join(os.fsencode(paths.exports), name)  # noqa: PTH118 - a name that is no text
+    file = os.path.join(os.fsencode(paths.exports), name)  # noqa: PTH118 - a name that is not text
     os.makedirs(os.path.dirname(file), exist_ok=True)  # noqa: PTH103, PTH120
     with open(file, "wb"):  # noqa: PTH123
         pass

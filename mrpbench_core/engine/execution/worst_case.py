@@ -95,7 +95,7 @@ class _Graph:
             inside = (cyclic[order.before] == first) & (cyclic[order.after] == first)
             if len(np.unique(moves.robot[members])) == len(members) and not order.completed[inside].any():
                 self.group[members] = first
-        # A cycle that is no rotation has no order that can be kept.
+        # A cycle that is not a rotation has no order that can be kept.
         kept = (cyclic[order.before] < 0) | (cyclic[order.before] != cyclic[order.after])
         before, after = order.before[kept], order.after[kept]
         needs = np.where(order.completed[kept], self._duration[before], clearing[before])

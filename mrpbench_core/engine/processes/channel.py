@@ -60,7 +60,7 @@ class Channel:
         """Return the next message, or None if none is complete in time; wait without limit if `timeout_s` is None.
 
         Raises:
-            GarbledError: what was received is no message.
+            GarbledError: what was received is not a message.
             ClosedError: the other end is closed, and everything that it sent was returned.
         """
         while (message := self._next()) is None:
@@ -109,7 +109,7 @@ class Channel:
         except (ValueError, RecursionError) as error:
             raise GarbledError("a message is no JSON") from error
         if not isinstance(message, dict):
-            raise GarbledError("a message is no object")
+            raise GarbledError("a message is not an object")
         return message
 
     def _sign(self, content: bytes) -> bytes:

@@ -107,7 +107,7 @@ def _serve(
     connection: socket.socket, channel: Channel, job: Mapping[str, Any], execute: Execute, resident: bool
 ) -> NoReturn:
     redirect(job["log"])
-    for number in (signal.SIGTERM, signal.SIGINT):  # from outside, which is no exception of a plugin
+    for number in (signal.SIGTERM, signal.SIGINT):  # from outside, which is not an exception of a plugin
         signal.signal(number, signal.SIG_DFL)
     os.setsid()  # Ctrl-C reaches the invoker only
     tell_imports(lambda plugin: channel.send({"importing": plugin}))

@@ -59,7 +59,7 @@ class Calls:
         try:
             fault = _fault(outcome, job)
         except (AttributeError, TypeError, ValueError) as error:
-            fault = f"something that is no outcome of a run: {one_line(error)}"
+            fault = f"something that is not an outcome of a run: {one_line(error)}"
         if fault is not None:
             _refuse(self.source, f"returned for the run {job.run_id} {fault}")
         return outcome
@@ -125,7 +125,7 @@ def _fault(outcome: Any, job: Job) -> str | None:
     if sum(part is not None for part in (record, failure, mistake)) != 1:
         return "neither a record nor a failure nor a mistake, or several of them"
     if not isinstance(mistake, str | None) or not isinstance(machine, dict | None):
-        return "a mistake that is no text, or a machine that is no mapping"
+        return "a mistake that is not text, or a machine that is not a mapping"
     if failure is not None:
         Failure.of_message(attrs.asdict(failure))
     if record is not None:

@@ -24,7 +24,7 @@ from mrpbench_core.model.planning.problem import Feature, Problem
 
 
 class Moves(NamedTuple):
-    """Every segment of a plan that is no wait, robot after robot, each in the order of its path; all i8[m]."""
+    """Every segment of a plan that is not a wait, robot after robot, each in the order of its path; all i8[m]."""
 
     first: Int
     """i8[n+1]: robot i's moves are `first[i]:first[i + 1]`."""

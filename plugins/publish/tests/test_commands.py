@@ -38,7 +38,7 @@ def test_findings_give_exit_code_1(mrpbench, published, tmp_path):
     ("words", "what"),
     [
         (["verify", "none.zip"], "none.zip: no such file"),
-        (["verify", "."], ".: is no file; a bundle is a zip file"),
+        (["verify", "."], ".: is not a file; a bundle is a zip file"),
         (["verify", "x.zip", "--seed", "1"], "--seed draws the runs to repeat (add --rerun SHARE)"),
         (["verify", "x.zip", "--rerun", "110%"], "--rerun 110%: expected `all`, `none` or a share such as 10%"),
         (["publish", "none", "--out", "x.zip"], "none: is not a results folder"),

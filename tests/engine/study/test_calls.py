@@ -77,7 +77,7 @@ def test_outcomes_of_runs_go_through(judged, part):
         ({"run_id": "ab"}, "returned for the run ab dict"),
         (JobOutcome(run_id="ab"), "neither a record nor a failure"),
         (JobOutcome(run_id="ab", record=RUN, failure=FAILURE), "or several of them"),
-        (JobOutcome(run_id="ab", mistake=5), "a mistake that is no text"),
+        (JobOutcome(run_id="ab", mistake=5), "a mistake that is not text"),
         (JobOutcome(run_id="cd", failure=FAILURE), "the outcome of 'cd'"),
         (JobOutcome(run_id="ab", record=RunRecord(run_id="cd")), "the outcome of 'cd'"),
         (JobOutcome(run_id="ab", record="succeeded"), "no outcome of a run"),

@@ -165,7 +165,7 @@ class Rpp : public Controller {
   }
 
   /// `carrot` f8[2] in the robot's frame, `curvature` 1/m, `speed` m/s after all regulation, and the `reason` why there
-  /// is no command.
+  /// is not a command.
   Explanation explain() const override {
     return {{{"carrot", {{carrot_.x, carrot_.y}, {2}}}, {"curvature", {{curvature_}, {1}}}, {"speed", {{speed_}, {1}}}},
             {{"reason", {fault_}}}};

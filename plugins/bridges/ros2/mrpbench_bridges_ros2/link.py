@@ -53,7 +53,7 @@ class Link:
         self._context = rclpy.Context()
         try:
             rclpy.init(args=[], context=self._context, signal_handler_options=SignalHandlerOptions.NO)
-        except Exception as error:  # RCLError is no public name
+        except Exception as error:  # RCLError is not a public name
             raise InputError(f"ros2: ROS 2 does not start: {' '.join(str(error).split())}") from error
         self.node: Any = rclpy.create_node(name, context=self._context)
         self._executor = SingleThreadedExecutor(context=self._context)

@@ -4,8 +4,8 @@
         [--crowd social_force] [--seed 1]
 
 Robots with lidars serve orders that keep coming in a warehouse with aisles of 2 m. People may overlap walls, one
-another and robots by 1 cm. A robot that drives into a person is no fault; a person that walks into a robot is. Prints a
-line per simulated minute. The exit code is 1 if there are faults, or if the memory of the process grows.
+another and robots by 1 cm. A robot that drives into a person is not a fault; a person that walks into a robot is.
+Prints a line per simulated minute. The exit code is 1 if there are faults, or if the memory of the process grows.
 """
 
 import argparse

@@ -113,7 +113,7 @@ def test_types_are_those_of_every_distribution_that_reads_the_bag(context, recor
     used = {
         entry["topic_metadata"]["type"]
         for entry in metadata(export(context, recording, tmp_path / "bag"))["topics_with_message_count"]
-    } - {"rmf_fleet_msgs/msg/FleetState"}  # which is no part of ROS
+    } - {"rmf_fleet_msgs/msg/FleetState"}  # which is not part of ROS
     for store in (Stores.ROS2_IRON, Stores.ROS2_JAZZY, Stores.ROS2_KILTED):
         other = get_typestore(store)
         assert {name: other.hash_rihs01(name) for name in used} == {name: TYPES.hash_rihs01(name) for name in used}

@@ -23,7 +23,7 @@ class ProgressRules:
     movement_time_allowance: float = 10.0
     """simulated seconds within which it has to."""
     required_movement_angle: float = np.inf
-    """radians: it makes progress, too, when it has turned this far; inf = turning is no progress."""
+    """radians: it makes progress, too, when it has turned this far; inf = turning is not progress."""
     detours_every: int = 0
     """Control periods between two requests of the same robot for a detour; 0 = robots never ask."""
     detours_always: bool = False

@@ -14,7 +14,7 @@ SLACK = 1e-6
 BACK = 2.4
 """Radians; a path that turns by more leads back along itself, as where a robot makes room for another one."""
 STRAIGHT = 0.3
-"""radians: a corner at which the direction changes by less is no bend."""
+"""radians: a corner at which the direction changes by less is not a bend."""
 
 
 _TABLES = (

@@ -135,7 +135,7 @@ def native_planner(algorithm: str, solvers: ModuleType = mapf) -> Callable[[type
 
     `solvers` is `mrpbench_native.mapf`, or a module that is built against the headers of `mrpbench-native`.
 
-    The fields come before those of the class. `iterations` is no field, because `Budget.iterations` sets it, and
+    The fields come before those of the class. `iterations` is not a field, because `Budget.iterations` sets it, and
     `seed` is None by default, which stands for `Budget.seed`.
     """
 

@@ -72,7 +72,7 @@ def verify(file: Path, options: VerifyOptions, slots: str, said: Callable[[Check
         InputError: there is no such file, or an input that is given is another one.
     """
     if not file.is_file():
-        raise InputError("no such file" if not file.exists() else "is no file; a bundle is a zip file", file=file)
+        raise InputError("no such file" if not file.exists() else "is not a file; a bundle is a zip file", file=file)
     seed = (options.seed or secrets.token_hex(8)) if options.rerun else None
     checks: list[Check] = []
     with TemporaryDirectory(prefix="mrpbench-verify-") as name:

@@ -96,12 +96,12 @@ def test_a_run_of_another_study(forger, found):
     records = forger.records()
     more = records[0] | {"run_id": "0123456789abcdef", "seed": 77, "config": records[0]["config"] | {"seed": 77}}
     forger.write([*records, more])
-    found(forger.pack(), "study", "is no run of the study of its invocation")
+    found(forger.pack(), "study", "is not a run of the study of its invocation")
 
 
 def test_a_study_from_which_a_planner_was_removed(forger, found):
     forger.edit_document(lambda data: data["study"]["matrix"].update(planner=["cbs"]))
-    found(forger.pack(), "study", "is no run of the study of its invocation")
+    found(forger.pack(), "study", "is not a run of the study of its invocation")
 
 
 def test_a_study_with_another_limit(forger, found):

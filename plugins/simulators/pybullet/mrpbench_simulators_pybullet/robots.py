@@ -94,7 +94,7 @@ def build_flat(bullet: Bullet, model: RobotModel, pose: Float) -> int:
     shape = body_shape(bullet, prism(model.footprint, model.height))
     body = bullet.body(Group.BODIES, shape, (x, y, 0.0), baseOrientation=upright(yaw), baseMass=model.mass)
     inertia = model.mass * float((model.footprint**2).sum(axis=1).mean()) / 2
-    # In Bullet, 0 is no inverse: nothing tilts it.
+    # Bullet takes an inverse inertia of 0 as one that nothing tilts.
     bullet.changeDynamics(body, -1, localInertiaDiagonal=(0.0, 0.0, inertia), lateralFriction=0, **_DAMPING)
     return body
 

@@ -92,7 +92,7 @@ def timing_faults(stored: Stored) -> Iterator[str]:
     timing, status = record.get("timing") or {}, RunStatus(record["status"])
     times = {key: value for key, value in timing.items() if key.endswith(("_s", "_bytes", "_factor"))}
     if any(not isinstance(value, int | float) or not math.isfinite(value) or value < 0 for value in times.values()):
-        yield "has a time or size that is no number of 0 or more"
+        yield "has a time or size that is not a number of 0 or more"
         return
     wall, cpu = times.get("planning_s"), times.get("planning_cpu_s")
     cores = stored.machine.get("cores")
@@ -144,4 +144,4 @@ def _history_faults(history: Any, wall: Any) -> Iterator[str]:
         if late or seconds != sorted(seconds) or costs != sorted(costs, reverse=True):
             yield "its anytime curve goes back in time, gets worse, or is longer than the planning"
     except (TypeError, IndexError):
-        yield "its anytime curve is no list of seconds, costs and bounds"
+        yield "its anytime curve is not a list of seconds, costs and bounds"

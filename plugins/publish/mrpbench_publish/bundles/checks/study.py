@@ -65,7 +65,7 @@ def study_faults(bundle: Opened, asked: Asked, records: Sequence[Stored]) -> Ite
             continue
         canonical = points[stored.shard].get(stored.run_id)
         if canonical is None:
-            yield stored.run_id, "is no run of the study of its invocation: its id does not follow from it"
+            yield stored.run_id, "is not a run of the study of its invocation: its id does not follow from it"
         elif canonical != stored.record["config"]:
             changed = sorted(key for key in canonical if canonical[key] != stored.record["config"].get(key))
             yield stored.run_id, f"has another configuration than its id says: {', '.join(changed) or 'further keys'}"
