@@ -72,7 +72,7 @@ class Structure:
         Raises:
             InputErrors: what is wrong with one of them.
         """
-        fields = attrs.fields(RunConfig)
+        fields, self._shared = attrs.fields(RunConfig), Shared()  # no later call has the same items
         return {
             key: self._field(from_data(value, Location()), getattr(fields, key), key) for key, value in values.items()
         }

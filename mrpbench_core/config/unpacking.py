@@ -39,9 +39,7 @@ class Unpacking:
         """
         self._origin = first["folder"], first["sources"]
         self._plain = {key: plain_bytes(value) for key, value in first["config"].items()}
-        self._files = [
-            (Path(os.path.normpath(Path(first["folder"], name))), sha256) for name, sha256 in _files(first["config"])
-        ]
+        self._files = _located(Path(first["folder"]), first["config"])
         self._structure = Structure(Path(first["folder"]), first["sources"])
         self.config = unpack(first)
 
@@ -54,6 +52,37 @@ class Unpacking:
                 if all(content_hash(file) == sha256 for file, sha256 in self._files):
                     return attrs.evolve(self.config, **self._structure.settings(changed))
         return unpack(parcel)
+
+
+class Settings:
+    """Structures some settings of one run after another; what is as in the run before is not structured again."""
+
+    def __init__(self, folder: Path, sources: Mapping[str, str]) -> None:
+        """See `References` for the arguments."""
+        self._folder, self._structure = folder, Structure(folder, sources)
+        self._last: dict[str, tuple[bytes, list[tuple[Path, str]], Any]] = {}
+        """Plain data, files and value of each setting."""
+
+    def __call__(self, plain: Mapping[str, Any]) -> dict[str, Any]:
+        """Return settings of `RunConfig` by name, from plain data.
+
+        Raises:
+            InputErrors: what is wrong with one of them.
+        """
+        return {name: self._setting(name, value) for name, value in plain.items()}
+
+    def _setting(self, name: str, plain: Any) -> Any:
+        data = plain_bytes(plain)
+        before, files, value = self._last.get(name, (b"", [], None))
+        if data != before or any(content_hash(file) != sha256 for file, sha256 in files):
+            value = self._structure.settings({name: plain})[name]
+            self._last[name] = data, _located(self._folder, plain), value
+        return value
+
+
+def _located(folder: Path, value: Any) -> list[tuple[Path, str]]:
+    """The files in a configuration whose names begin at a folder, with the hashes of their content."""
+    return [(Path(os.path.normpath(folder / name)), sha256) for name, sha256 in _files(value)]
 
 
 def _files(value: Any) -> Iterator[tuple[str, str]]:

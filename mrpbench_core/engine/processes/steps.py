@@ -18,8 +18,7 @@ import attrs
 
 from mrpbench_core.api.metric import Metric
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.config.structure import Structure
-from mrpbench_core.config.unpacking import Unpack, unpack
+from mrpbench_core.config.unpacking import Settings, Unpack, unpack
 from mrpbench_core.engine.drive.drive import Claims, drive
 from mrpbench_core.engine.json_values import jsonable
 from mrpbench_core.engine.judging import Prepared, keep, record_of
@@ -50,8 +49,8 @@ class State:
 
     hooks: Hooks = attrs.field(factory=Hooks)
     unpack: Unpack = unpack
-    structures: dict[tuple[str, str], Structure] = attrs.field(factory=dict)
-    """Readers of settings, by folder and sources of local plugins."""
+    settings_of: dict[tuple[str, str], Settings] = attrs.field(factory=dict)
+    """The last reader of settings, by folder and sources of local plugins."""
     config: RunConfig | None = None
     """The configuration of the job, once it is known, to name the component that fails."""
     instances: InstanceFolder | None = None
@@ -90,10 +89,9 @@ class State:
             InputErrors: what is wrong with one of them.
         """
         key = parcel["folder"], str(parcel["sources"])
-        if key not in self.structures:
-            self.structures.clear()
-            self.structures[key] = Structure(Path(parcel["folder"]), parcel["sources"])
-        return self.structures[key].settings({name: parcel["config"][name] for name in names})
+        if key not in self.settings_of:
+            self.settings_of = {key: Settings(Path(parcel["folder"]), parcel["sources"])}
+        return self.settings_of[key]({name: parcel["config"][name] for name in names})
 
     def question(self, job: Job) -> tuple[Question, bool]:
         """What an instance is made of, and whether its scenario gives each robot a goal."""
