@@ -111,7 +111,7 @@ def test_nothing_is_overwritten(mrpbench, tmp_path):
         (["planner", "3d"], "'3d' is not a name"),
         (["planner", "../mine"], "'../mine' is not a name"),
         (["planner", "class"], "'class' is a keyword of Python"),
-        (["planner", "path"], "the template already uses the name Path"),
+        (["planner", "robot_path"], "the template already uses the name RobotPath"),
         (["dispatcher", "adg"], "dispatcher 'adg' is installed already, by mrpbench-core"),
         (["planner"], "NAME"),
     ],
