@@ -13,11 +13,13 @@ DEFAULT = (
     "mrpbench-publish",
     "mrpbench-replay",
     "mrpbench-scaffold",
+    "mrpbench-world",
 )
 EXTRAS = {
     "dask": "mrpbench-executors-dask",
     "figures": "mrpbench-core[figures]",
     "geo": "mrpbench-standard[geo]",
+    "glb": "mrpbench-world[glb]",
     "images": "mrpbench-standard[images]",
     "mujoco": "mrpbench-simulators-mujoco",
     "ortools": "mrpbench-assigners-ortools",
@@ -27,6 +29,7 @@ EXTRAS = {
     "rosbag2": "mrpbench-exporters-rosbag2",
     "search": "mrpbench-search",
     "statistics": "mrpbench-core[statistics]",
+    "usd": "mrpbench-world[usd]",
 }
 
 

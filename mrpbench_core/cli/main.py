@@ -29,7 +29,6 @@ COMMANDS = {
     "report": "print tables of results with intervals, and write an HTML page",
     "export": "write a stored run in another format",
     "scenario": "write the scenarios of a study to files, for publication",
-    "world": "print the facts and faults of a map, draw it, convert it",
     "plugins": "list installed plugins, or show the options of one",
     "check": "check a plugin against the contract of its kind",
     "schema": "print the JSON Schema of configurations, for editors",

@@ -2,10 +2,11 @@ import argparse
 import json
 
 import pytest
+from mrpbench_world.commands import world as command
+from mrpbench_world.write import planned_raster
 from mrpbench_worlds_standard.shipped import Household
 
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
-from mrpbench_core.cli import world as command
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
@@ -66,7 +67,7 @@ def test_a_picture_is_written(invoke, tmp_path):
 
 def test_a_world_becomes_a_ros_map_and_is_read_again(invoke, tmp_path):
     pytest.importorskip("PIL")
-    invoke("office", "--convert", tmp_path / "office.yaml")
+    invoke("office", "--write", tmp_path / "office.yaml")
     facts = json.loads(invoke(tmp_path / "office.yaml", "--json"))
     assert facts["name"] == "office"
     assert (facts["width"], facts["height"]) == pytest.approx((21.5, 12.0), abs=0.06)
@@ -75,11 +76,11 @@ def test_a_world_becomes_a_ros_map_and_is_read_again(invoke, tmp_path):
 
 def test_the_roadmap_becomes_a_moving_ai_map(invoke, tmp_path, capsys):
     file = tmp_path / "office.map"
-    before = json.loads(invoke("office", "--json", "--convert", file))
+    before = json.loads(invoke("office", "--json", "--write", file))
     after = json.loads(invoke(file, "--json"))
     assert (after["cells"], after["free"]) == (before["cells"], before["free"])
     again = tmp_path / "again.map"
-    invoke(file, "--convert", again)
+    invoke(file, "--write", again)
     assert again.read_text() == file.read_text()
 
 
@@ -87,7 +88,7 @@ def test_parts_that_a_map_cannot_express_are_named(invoke, tmp_path, capsys):
     parser = argparse.ArgumentParser()
     command.configure(parser)
     command.run(parser.parse_args(["household", "--cell-size", "0.4", "--roadmap", "grid",
-                                   "--convert", str(tmp_path / "a.map")]))  # fmt: skip
+                                   "--write", str(tmp_path / "a.map")]))  # fmt: skip
     assert "pairs of neighbouring cells are separated by something solid" in capsys.readouterr().err
 
 
@@ -95,7 +96,7 @@ def test_headings_do_not_change_the_number_of_such_pairs(capsys):
     fleet = Fleet(robots=(load_robot("turtlebot3_burger"),))
     counts = set()
     for model in ("constant", "kinodynamic"):
-        command.planned_raster(GridRoadmap(cell_size=0.4, duration_model=model).build(Household().load(), fleet))
+        planned_raster(GridRoadmap(cell_size=0.4, duration_model=model).build(Household().load(), fleet))
         counts.add(capsys.readouterr().err)
     (message,) = counts
     assert int(message.split()[0]) > 0
@@ -121,10 +122,10 @@ def test_of_levels_without_lanes_the_first_is_shown(invoke, tmp_path):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (["airport", "--convert", "a.yaml", "--roadmap", "grid", "--cell-size", "0.01"], "choose a larger cell_size"),
-        (["office", "--convert", "office.png"], "cannot convert to .png (use .yaml or .map)"),
-        (["office", "--roadmap", "graph", "--convert", "a.map"], "this roadmap has no raster to write"),
-        (["office", "--convert", "no/such/a.map"], "no/such/a.map: cannot be written"),
+        (["airport", "--write", "a.yaml", "--roadmap", "grid", "--cell-size", "0.01"], "choose a larger cell_size"),
+        (["office", "--write", "office.png"], "no format has the suffix '.png'"),
+        (["office", "--roadmap", "graph", "--write", "a.map"], "this roadmap has no raster to write"),
+        (["office", "--write", "no/such/a.map"], "no/such/a.map: cannot be written"),
         (["offise"], "did you mean 'office'"),
         (["missing.map"], "missing.map: no such file"),
         (["missing.building.yaml"], "missing.building.yaml: no such file"),

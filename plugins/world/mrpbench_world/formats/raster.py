@@ -1,11 +1,15 @@
-"""Write rasters as maps for ROS map_server (`.yaml` with `.pgm`) and MovingAI (`.map`)."""
+"""Write rasters as maps for ROS map_server (`.yaml` with `.pgm`) and MovingAI (`.map`), and robots beside them."""
 
+import json
+import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_world.solids import PlacedRobot
 
 FREE, OCCUPIED = 254, 0
 """Grey values of Nav2's map_saver."""
@@ -38,6 +42,19 @@ def write_movingai_map(file: Path, occupancy: Occupancy) -> None:
     rows, columns = occupancy.shape
     lines = ["".join("@" if cell else "." for cell in row) for row in occupancy.blocked[::-1].tolist()]
     _write(file, "\n".join(["type octile", f"height {rows}", f"width {columns}", "map", *lines, ""]).encode())
+
+
+def write_robots(file: Path, robots: Sequence[PlacedRobot], goals: Sequence[tuple[float, float, float]]) -> None:
+    """Write names, starts and goals (x, y in metres, yaw in radians, null = any) in the frame of the map.
+
+    Raises:
+        InputError: it cannot be written.
+    """
+    lines = ["# x, y in metres and yaw in radians in the frame `map`; yaw null = any\n", "robots:\n"]
+    for robot, goal in zip(robots, goals, strict=True):
+        poses = [[None if math.isnan(value) else round(value, 6) for value in pose] for pose in (robot.pose, goal)]
+        lines.append(f"- {{name: {robot.name}, start: {json.dumps(poses[0])}, goal: {json.dumps(poses[1])}}}\n")
+    _write(file, "".join(lines).encode())
 
 
 def _write(file: Path, content: bytes) -> None:

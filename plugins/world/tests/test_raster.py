@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
+from mrpbench_world.formats.raster import write_movingai_map, write_ros_map
 from mrpbench_worlds_standard.movingai import MovingAi
 
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.raster import write_movingai_map, write_ros_map
 from mrpbench_core.model.worlds.occupancy import Occupancy
 
 RASTER = Occupancy(blocked=[[True, False, False], [False, False, False]], cell_size=0.5, origin=(1, 2))

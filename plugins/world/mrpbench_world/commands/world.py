@@ -1,33 +1,33 @@
-"""`mrpbench world FILE|NAME`: print the facts and faults of a map, draw it, convert it."""
+"""`mrpbench world FILE|NAME`: print the facts and faults of a map, draw it, write it for other programs."""
 
 import argparse
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import attrs
 
+from mrpbench_core.cli.input.run_reference import HELP, find_run
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import counted
+from mrpbench_world.write import write_run, write_world
 
 if TYPE_CHECKING:
     from mrpbench_core.api.roadmap import RoadmapBuilder
-    from mrpbench_core.model.planning.roadmap import Roadmap
-    from mrpbench_core.model.worlds.occupancy import Occupancy
     from mrpbench_core.model.worlds.world import World
 
 SHOWN = 20
 """Faults and notes that are printed."""
-RESOLUTION = 0.05
-"""metres per pixel of a converted map."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.add_argument(
-        "world", metavar="FILE|NAME", help="a .building.yaml, .map or map_server .yaml file, or a built-in world"
+        "world",
+        metavar="FILE|NAME",
+        nargs="?",
+        help="a .building.yaml, .map or map_server .yaml file, or a built-in world (default: the world of --run)",
     )
     parser.add_argument(
         "--level", help="load only this level of a building (default: all levels, or the first if it has no lanes)"
@@ -47,20 +47,37 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="PNG",
         help="draw the world and its roadmap; further levels get files of their own",
     )
+    parser.add_argument("--run", metavar="RUN", help=f"with --write: the robots and the motion of a run; {HELP}")
     parser.add_argument(
+        "--write",
         "--convert",
+        dest="write",
         metavar="FILE",
-        help="write all solid things as a ROS map (.yaml and .pgm), or the raster of the roadmap as a MovingAI .map",
+        help="write the world in the format of the suffix: .sdf (Gazebo), .usd, .usda or .usdc (OpenUSD), .glb (glTF), "
+        ".xml (MuJoCo); level 0 as .yaml with .pgm (ROS), or the raster of the roadmap as .map (MovingAI)",
     )
     parser.add_argument("--json", action="store_true", help="print as JSON")
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Load and check the world; print, draw and convert it as requested."""
+    """Load and check the world; print, draw and write it as requested."""
     from mrpbench_core.engine.processes.call import in_worker
 
-    facts = in_worker(f"{arguments.world} cannot be checked", examined, vars(arguments))
-    print_json(facts) if arguments.json else _print(facts)
+    if arguments.run is None:
+        if arguments.world is None:
+            raise InputError("no world is named", hint="write FILE, NAME, or --run RUN")
+        facts = in_worker(f"{arguments.world} cannot be checked", examined, vars(arguments))
+        print_json(facts) if arguments.json else _print(facts)
+        return 0
+    if arguments.world is not None or arguments.write is None:
+        raise InputError("--run names a world and needs --write FILE", hint="leave out FILE|NAME")
+    results, record = find_run(arguments.run)
+    recording = results.recording(record["run_id"])
+    try:
+        write_run(recording, Path(arguments.write))
+    finally:
+        recording.close()
+    print(f"wrote {arguments.write}")
     return 0
 
 
@@ -86,8 +103,8 @@ def examined(words: dict[str, Any]) -> dict[str, Any]:
             if index:
                 file = file.with_name(f"{file.stem}-{level.name}{file.suffix}")
             draw_world(world, roadmap=roadmap, file=file, level=index)
-    if arguments.convert is not None:
-        _convert(Path(arguments.convert), world, roadmap, arguments.cell_size)
+    if arguments.write is not None:
+        write_world(Path(arguments.write), world, roadmap, arguments.cell_size)
     return attrs.asdict(facts)
 
 
@@ -105,47 +122,6 @@ def _builder(arguments: argparse.Namespace, world: "World") -> "RoadmapBuilder":
     options = {key: value for key, value in chosen.items() if value is not None}
     builder: RoadmapBuilder = make_component(Registry(RoadmapBuilder).get(name), name, options)  # type: ignore[type-abstract]
     return builder
-
-
-def _convert(file: Path, world: "World", roadmap: "Roadmap", cell_size: float | None) -> None:
-    """Write level 0 in the format of the file's suffix."""
-    from mrpbench_core.checking.occupancy import rasterise
-    from mrpbench_core.files.raster import write_movingai_map, write_ros_map
-
-    if file.suffix in (".yaml", ".yml"):
-        occupancy = world.levels[0].occupancy
-        size = cell_size or (RESOLUTION if occupancy is None else occupancy.cell_size)
-        write_ros_map(file, rasterise(world.levels[0], size, "touched"))
-    elif file.suffix == ".map":
-        write_movingai_map(file, planned_raster(roadmap))
-    else:
-        raise InputError(f"cannot convert to {file.suffix or 'a file without suffix'}", hint="use .yaml or .map")
-
-
-def planned_raster(roadmap: "Roadmap") -> "Occupancy":
-    """Return the cells of a roadmap as a raster; print how many neighbours no edge connects.
-
-    Raises:
-        InputError: the roadmap has no raster.
-    """
-    import numpy as np
-
-    from mrpbench_core.model.worlds.occupancy import Occupancy
-
-    if roadmap.grid is None:
-        raise InputError("this roadmap has no raster to write", hint="use --roadmap lanes or grid")
-    blocked = np.ones(roadmap.grid.shape, bool)
-    row, column = roadmap.grid.cell.T
-    blocked[row, column] = False
-    pairs = sum(int((~a & ~b).sum()) for a, b in ((blocked[:, 1:], blocked[:, :-1]), (blocked[1:], blocked[:-1])))
-    cells = np.sort(roadmap.grid.cell[roadmap.edges] @ (roadmap.grid.shape[1], 1), axis=1)  # of the ends of edges
-    walled = pairs - len(np.unique(cells[cells[:, 0] < cells[:, 1]], axis=0))  # vertices of a cell differ by heading
-    if walled:
-        print(
-            f"{walled} pairs of neighbouring cells are separated by something solid, which a .map cannot express",
-            file=sys.stderr,
-        )
-    return Occupancy(blocked=blocked, cell_size=roadmap.grid.cell_size, origin=roadmap.grid.origin)
 
 
 def _print(facts: Mapping[str, Any]) -> None:
