@@ -4,11 +4,11 @@ import tracemalloc
 
 import numpy as np
 import pytest
+from mrpbench_world.formats.raster import write_ros_map
 from mrpbench_worlds_standard.ros_map import RosMap
 
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.files.errors import InputError
-from mrpbench_world.formats.raster import write_ros_map
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.worlds.occupancy import Occupancy
