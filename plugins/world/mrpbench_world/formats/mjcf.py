@@ -66,8 +66,8 @@ def _door(world: ET.Element, asset: ET.Element, leaf: Leaf) -> None:
         turns = {"axis": _numbers(0, 0, math.copysign(1, leaf.turn)), "range": _numbers(0, abs(leaf.turn))}
         joint |= {"type": "hinge", "pos": _numbers(*leaf.hinge, leaf.prism.bottom), **turns}
     ET.SubElement(body, "joint", joint)
-    # Leaves hang in their frame: they touch robots, not the floor and the walls.
-    _geom(body, asset, leaf.prism, WOOD, mass=_numbers(_LEAF_MASS), contype="2", conaffinity="2")
+    # Leaves hang in their frame: they touch robots, not the floor, walls or each other.
+    _geom(body, asset, leaf.prism, WOOD, mass=_numbers(_LEAF_MASS), contype="2", conaffinity="0")
 
 
 def _robot(world: ET.Element, asset: ET.Element, actuator: ET.Element, robot: PlacedRobot) -> None:
