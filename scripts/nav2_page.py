@@ -28,7 +28,8 @@ listed, or are `enabled: false`, are not judged.
 If a file has several controllers of a kind with different values, the option `controller_id` chooses one; if its
 namespaces have different values, the option `namespace` does. `main` has the parameters of lyrical. Of older releases
 the names `controller_plugin_ids`, `controller_plugin_types`, `plugin_names`, `obstacle_range` and `raytrace_range` are
-read, too. Filters of costmaps (`keepout_filter`, `speed_filter`) are ignored, which a note says.
+read, too. Filters of costmaps (`keepout_filter`, `speed_filter`) are ignored, which a note says. Speeds and
+accelerations are lowered to the limits of the robot: choose a `fleet` whose robots are as fast as those of the file.
 """
 
 

@@ -18,4 +18,4 @@ def map_plugin(file: Path) -> str | None:
     if file.suffix not in SUFFIXES:
         return None
     data = load(file).data
-    return "ros_map" if isinstance(data, dict) and "resolution" in data else "rmf"
+    return "ros_map" if isinstance(data, dict) and not {"image", "resolution"}.isdisjoint(data) else "rmf"

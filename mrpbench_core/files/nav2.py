@@ -147,7 +147,8 @@ class Nav2Block:
         if unknown:
             several = len(unknown) > 1
             names = ", ".join(repr(name) for name in unknown)
-            hint = None if several else did_you_mean(unknown[0], [*self._taken, *self._not_used, *known])
+            others = [*self._taken, *self._not_used, *known]
+            hint = "remove them" if several else did_you_mean(unknown[0], others, "remove it: Nav2 does not have it")
             raise self.error(f"unknown parameter{'s' * several} {names}", unknown[0], hint=hint)
         for inner_name, inner in self._within.items():
             unread |= {f"{inner_name}.{name}": None for name in inner.unused()}

@@ -13,11 +13,13 @@ import numpy as np
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import did_you_mean
 from mrpbench_core.files.text import position, read_text
-from mrpbench_core.files.xml import parse_xml
+from mrpbench_core.files.xml import line_of, parse_xml
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Urdf
 
 JOINTS = ("fixed", "continuous", "revolute", "prismatic", "floating", "planar")
+_RIGID = ("fixed", "prismatic")
+"""Types of joints between the body and a driven wheel: a suspension is rigid."""
 _ALIGNED = 0.999
 """Least cosine of the angle between the axis of a wheel and the y axis of the robot."""
 _SAME = 1e-3
@@ -63,14 +65,14 @@ def _check_tree(robot: ET.Element, file: Path) -> None:
     for name, joint in joints.items():
         if joint.get("type") not in JOINTS:
             kinds = f"types: {', '.join(JOINTS)}"
-            raise InputError(f"the joint {name!r} has the type {joint.get('type', '')!r}", file=file, hint=kinds)
+            raise _error(f"the joint {name!r} has the type {joint.get('type', '')!r}", file, joint, kinds)
         for role in ("parent", "child"):
             if (link := _link(joint, role)) not in links:
                 hint = did_you_mean(link, links, f"links: {', '.join(links)}")
-                raise InputError(f"the {role} of the joint {name!r} is {link!r}, not a link", file=file, hint=hint)
+                raise _error(f"the {role} of the joint {name!r} is {link!r}, not a link", file, joint, hint)
         first = above.setdefault(link, joint)
         if first is not joint:
-            raise InputError(f"the joints {first.get('name')!r} and {name!r} have one child, {link!r}", file=file)
+            raise _error(f"the joints {first.get('name')!r} and {name!r} have one child, {link!r}", file, joint)
     roots = [link for link in links if link not in above]
     if len(roots) > 1:
         listed = ", ".join(map(repr, roots))
@@ -80,7 +82,7 @@ def _check_tree(robot: ET.Element, file: Path) -> None:
         way: set[str] = set()
         while link not in rooted:
             if link in way:
-                raise InputError(f"the joint {above[link].get('name')!r} is its own ancestor", file=file)
+                raise _error(f"the joint {above[link].get('name')!r} is its own ancestor", file, above[link])
             way.add(link)
             link = _link(above[link], "parent")
         rooted |= way
@@ -92,7 +94,7 @@ def _named(robot: ET.Element, tag: str, file: Path) -> dict[str, ET.Element]:
     for element in robot.iterfind(tag):
         name = element.get("name", "")
         if not name or name in elements:
-            raise InputError(f"has two {tag}s {name!r}" if name else f"has a {tag} without a name", file=file)
+            raise _error(f"has two {tag}s {name!r}" if name else f"has a {tag} without a name", file, element)
         elements[name] = element
     return elements
 
@@ -112,7 +114,7 @@ def mesh_files(robot: ET.Element, file: Path) -> dict[str, Path]:
         places = _places(name, file)
         existing = [place for place in places if place.is_file()]
         if not existing:
-            raise InputError(f"the mesh {name!r} is missing", file=file, hint=f"looked for {places[-1]}")
+            raise _error(f"the mesh {name!r} is missing", file, mesh, f"looked for {places[-1]}")
         meshes[name] = existing[0]
     return meshes
 
@@ -142,14 +144,14 @@ def drive_of(robot: ET.Element, urdf: Urdf) -> DifferentialDrive:
             raise InputError(f"has no joint {name!r}", file=file, hint=hint)
         joint = joints[name]
         if joint.get("type") != "continuous":
-            raise InputError(f"the wheel joint {name!r} is {joint.get('type')!r} instead of 'continuous'", file=file)
+            wrong = f"the wheel joint {name!r} is {joint.get('type')!r} instead of 'continuous'"
+            raise _error(wrong, file, joint, "a driven wheel turns without limits")
         frame = _frame(joint, above, file)
         axis = frame[:3, :3] @ numbers(joint.find("axis"), "xyz", (1.0, 0.0, 0.0), file)
         if abs(axis[1]) < _ALIGNED * np.linalg.norm(axis) or not axis.any():
             turn = ", ".join(f"{value:.2g}" for value in axis)
-            raise InputError(
-                f"the wheel joint {name!r} turns about ({turn}) of the root link, not about its y axis", file=file
-            )
+            wrong = f"the wheel joint {name!r} turns about ({turn}) of the root link, not about its y axis"
+            raise _error(wrong, file, joint, "the root link should have x forward and y left")
         places.append(frame[:3, 3])
         signs.append(1 if axis[1] > 0 else -1)
         radii.append(_radius(robot, _link(joint, "child"), file))
@@ -178,8 +180,9 @@ def _frame(joint: ET.Element, above: dict[str, ET.Element], file: Path) -> Float
     frame = joint_frame(joint, file)
     while (upper := above.get(_link(joint, "parent"))) is not None:
         joint = upper
-        if joint.get("type") != "fixed":
-            raise InputError(f"a driven wheel is attached to the joint {joint.get('name')!r}, which moves", file=file)
+        if joint.get("type") not in _RIGID:
+            wrong = f"a driven wheel is attached to the joint {joint.get('name')!r}, which moves"
+            raise _error(wrong, file, joint, "steered wheels and legs with wheels are not simulated")
         frame = joint_frame(joint, file) @ frame
     return frame
 
@@ -221,5 +224,10 @@ def numbers(element: ET.Element | None, name: str, default: tuple[float, ...], f
         values = np.empty(0)
     if len(values) != len(default) or not np.isfinite(values).all():
         wanted = "a number" if len(default) == 1 else f"{len(default)} numbers"
-        raise InputError(f"{name}={text!r} of a {element.tag!r} must be {wanted}", file=file)
+        hint = "expand it with xacro" if "$" in text else None
+        raise _error(f"{name}={text!r} of a {element.tag!r} must be {wanted}", file, element, hint)
     return values
+
+
+def _error(message: str, file: Path, element: ET.Element, hint: str | None = None) -> InputError:
+    return InputError(message, file=file, line=line_of(element), hint=hint)

@@ -30,6 +30,7 @@ Steps = tuple[str | int, ...]
 
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _INT = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
+_CONFLICT = re.compile(r"^<{7} ", re.MULTILINE)
 _FLOAT = re.compile(r"[-+]?(?:\.[0-9]+|[0-9]+(?:\.[0-9]*)?)(?:[eE][-+]?[0-9]+)?")
 _NAMED: dict[str, Any] = {
     **dict.fromkeys(("", "~", "null", "Null", "NULL"), None),
@@ -174,6 +175,10 @@ class _DocumentReader:
         try:
             yield from yaml.parse(text, Loader=_LOADER)
         except yaml.MarkedYAMLError as error:
+            if conflict := _CONFLICT.search(text):
+                line = text.count("\n", 0, conflict.start()) + 1
+                hint = "keep one of its two sides"
+                raise InputError("has a merge conflict of Git", file=self.file, line=line, hint=hint) from None
             mark = error.problem_mark or error.context_mark
             hint = error.context
             if hint and error.context_mark and mark and error.context_mark.line != mark.line:

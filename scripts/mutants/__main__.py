@@ -35,6 +35,7 @@ data_file = {folder}/coverage
 parallel = true
 include = {root}/mrpbench_core/*
     {root}/native/python/*
+    {root}/plugins/*/mrpbench_*
     {root}/plugins/*/*/mrpbench_*
 disable_warnings = no-data-collected, module-not-imported, module-not-measured, no-ctracer
 patch = subprocess, fork, _exit

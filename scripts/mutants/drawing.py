@@ -63,7 +63,7 @@ class Mutant:
 
 def production_files() -> list[str]:
     """Python files of all distributions, relative to the checkout, without tests."""
-    packages = [ROOT / "mrpbench_core", ROOT / "native/python/mrpbench_native", *ROOT.glob("plugins/*/*/mrpbench_*")]
+    packages = [ROOT / "mrpbench_core", ROOT / "native/python/mrpbench_native", *ROOT.glob("plugins/**/mrpbench_*/")]
     return sorted(str(file.relative_to(ROOT)) for package in packages for file in package.rglob("*.py"))
 
 

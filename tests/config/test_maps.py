@@ -11,6 +11,7 @@ BUILDING = "levels: {L1: {vertices: []}}\n"
     [
         ("a.map", "type octile", "movingai"),
         ("a.yaml", "image: a.pgm\nresolution: 0.05\norigin: [0, 0, 0]\n", "ros_map"),
+        ("a.yaml", "image: a.pgm\norigin: [0, 0, 0]\n", "ros_map"),
         ("a.building.yaml", BUILDING, "rmf"),
         ("a.yml", BUILDING, "rmf"),
         ("office", "", None),

@@ -26,14 +26,15 @@ PAGES = [
 def test_what_a_page_says_works(page, tmp_path):
     if page.stem in SLOW and "MRPBENCH_ALL_PAGES" not in os.environ:
         pytest.skip("`make pages` follows this page")
-    site, folder = tmp_path / "site", tmp_path / "folder"
-    site.mkdir()
-    folder.mkdir()
+    site, folder, home = tmp_path / "site", tmp_path / "folder", tmp_path / "home"
+    for made in (site, folder, home):
+        made.mkdir()
     environment = os.environ | {
         "PATH": f"{HERE}{os.pathsep}{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
         "PYTHONPATH": f"{folder}{os.pathsep}{site}",
         "PYTHONDONTWRITEBYTECODE": "1",
         "SITE": str(site),
+        "HOME": str(home),
         "CHECKOUT": str(ROOT),
         "COLUMNS": "120",
     }

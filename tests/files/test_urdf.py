@@ -51,6 +51,11 @@ def test_mass_and_wheels_are_those_of_the_urdf(tmp_path):
     assert (robot.urdf.file, robot.urdf.wheels) == (str(tmp_path / "cart.urdf"), ("left", "right"))
 
 
+def test_a_prefix_need_not_be_declared_and_a_suspension_is_rigid(tmp_path):
+    urdf = URDF.replace('<link name="axle"/>', '<link name="axle"/><drake:joint name="turned"/>')
+    assert load(tmp_path, urdf.replace('type="fixed"', 'type="prismatic"')).wheel_separation == pytest.approx(0.4)
+
+
 def test_names_of_links_may_have_quotes_and_brackets(tmp_path):
     robot = load(tmp_path, URDF.replace("left_wheel", "left'][wheel"))
     assert (robot.mass, robot.wheel_radius) == (10, 0.1)
@@ -120,7 +125,7 @@ def test_recordings_do_not_tell_where_a_urdf_lies(tmp_path):
     ("urdf", "message"),
     [
         (None, r"cart\.urdf: no such file"),
-        (URDF.replace("</robot>", ""), r"cart\.urdf:10:1: is not XML"),
+        (URDF.replace("</robot>", ""), r"cart\.urdf:10:1: is not XML: no element found$"),
         ("<sdf/>", "is not a URDF: its root is 'sdf'"),
         ('<!DOCTYPE robot [<!ENTITY a "b">]>' + URDF, "has a DOCTYPE"),
         (
@@ -131,11 +136,11 @@ def test_recordings_do_not_tell_where_a_urdf_lies(tmp_path):
         (URDF.replace('name="left"', 'name="port"'), r"has no joint 'left' \(continuous joints: port, right\)"),
         (
             URDF.replace('"left" type="continuous"', '"left" type="revolute"'),
-            "'left' is 'revolute' instead of 'continuous'",
+            r"cart\.urdf:7: the wheel joint 'left' is 'revolute' instead of 'continuous' \(a driven wheel turns",
         ),
         (
-            URDF.replace('type="fixed"', 'type="prismatic"'),
-            "a driven wheel is attached to the joint 'turned', which moves",
+            URDF.replace('type="fixed"', 'type="revolute"'),
+            r"cart\.urdf:4: a driven wheel is attached to the joint 'turned', which moves \(steered wheels and",
         ),
         (
             URDF.replace('<parent link="base"/>', '<parent link="left_wheel"/>'),
@@ -164,7 +169,11 @@ def test_recordings_do_not_tell_where_a_urdf_lies(tmp_path):
         (URDF.replace("0 0.2 0", "0 -0.3 0"), "'left' is not to the left of 'right'"),
         (URDF.replace("0 0.2 0", "0.1 0.2 0"), "the wheels left and right are not on one axle"),
         (URDF.replace('radius="0.1"', 'radius="0.2"', 1), "have different sizes"),
-        (URDF.replace('radius="0.1"', 'radius="wide"', 1), "radius='wide' of a 'cylinder' must be a number"),
+        (
+            URDF.replace('radius="0.1"', 'radius="wide"', 1),
+            r"cart\.urdf:5: radius='wide' of a 'cylinder' must be a",
+        ),
+        (URDF.replace('xyz="0 0 0.1"', 'xyz="$(arg x) 0 0"'), r"must be 3 numbers \(expand it with xacro\)"),
         (URDF.replace('xyz="0 0.2 0"', 'xyz="0 0.2"'), "xyz='0 0.2' of a 'origin' must be 3 numbers"),
         (URDF.replace('value="9"', 'value="0"').replace('value="0.5"', 'value="0"'), "its links have no mass"),
         (

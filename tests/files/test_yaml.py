@@ -109,6 +109,16 @@ def test_a_mistake_is_one_line_with_its_place(text, where, what):
     assert "\n" not in str(caught.value)
 
 
+CONFLICT = "a:\n  b: 1\n<<<<<<< HEAD\n  c: 1\n=======\n  c: 2\n>>>>>>> 7189ad5 (Use 2)\n"
+
+
+@pytest.mark.parametrize("text", [CONFLICT, CONFLICT.replace("  ", ""), CONFLICT.replace("  c: ", "  - ")])
+def test_a_merge_conflict_is_named_with_its_line(text):
+    with pytest.raises(InputError, match=r"has a merge conflict of Git \(keep one of its two sides\)$") as caught:
+        yaml.loads(text)
+    assert caught.value.line == 3
+
+
 @pytest.mark.parametrize("text", ["", "# nothing\n", "\n\n"])
 def test_an_empty_file_says_so(text):
     with pytest.raises(InputError, match="is empty"):

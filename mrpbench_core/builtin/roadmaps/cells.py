@@ -147,7 +147,7 @@ def cell_roadmap(
         InputError: no cell is free, or robots are bound to a navigation graph.
     """
     if not len(cells.cell):
-        raise InputError(f"world {world.name!r} has no cell that a robot fits in", hint="try a smaller cell_size")
+        raise _no_cell(world)
     lost = [called(world, int(index)) for index in np.flatnonzero(place < 0)]
     if lost:
         notes = [*notes, f"No robot can stand at {', '.join(lost)}."]
@@ -180,3 +180,10 @@ def cell_roadmap(
         notes=tuple(notes),
     )
     return timing.timed(with_facilities(roadmap, world, float(fleet.radii.max())), profiles)
+
+
+def _no_cell(world: World) -> InputError:
+    raster = world.levels[0].occupancy
+    if raster is not None and raster.blocked.all():
+        return InputError(f"world {world.name!r} has no free cell", hint="; ".join(world.notes) or None)
+    return InputError(f"world {world.name!r} has no cell that a robot fits in", hint="try a smaller cell_size")

@@ -7,6 +7,7 @@ from textwrap import shorten
 import attrs
 import numpy as np
 
+from mrpbench_core.api.metric import Column
 from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.runs.status import LEFT_OUT, RunStatus
 from mrpbench_core.report.answer.amounts import change, quantity
@@ -62,7 +63,7 @@ def choose_examples(report: Report, answer: Answer) -> list[Examples]:
 
 
 def _of_setting(report: Report, part: SettingAnswer) -> Examples:
-    topic = next((topic for topic in part.topics if topic.ranking.column.answers == "duration"), None)
+    topic = next((topic for topic in part.topics if _is_drawn(topic.ranking.column)), None)
     ranking = topic.ranking if topic else None
     what = "" if topic is None or topic.title.endswith("?") else f"{topic.title.lower()} "
     counted = np.concatenate([group.counted for group in part.setting.groups])
@@ -81,6 +82,11 @@ def _of_setting(report: Report, part: SettingAnswer) -> Examples:
                     )
     contrast = _contrast(report, part, ranking) if ranking is not None else None
     return Examples(name=part.name, runs=tuple(runs), contrast=contrast)
+
+
+def _is_drawn(column: Column) -> bool:
+    """Tell whether the runs of a column with durations have motion to show; those that only plan have none."""
+    return column.answers == "duration" and column.stage == "execution"
 
 
 def _failed(report: Report, part: SettingAnswer, counted: Int) -> Iterator[Example]:

@@ -30,10 +30,9 @@ def sentences(ranking: Ranking) -> list[str]:
         lines.append(f"{len(apart) - NAMED} more differ.")
     if without := [place.name for place in others if place.estimate is None]:
         lines.append(f"{listed(without)} {'has' if len(without) == 1 else 'have'} no value.")
-    if ranking.ranked < LEAST and not all(place.relation is Relation.IDENTICAL for place in others):
-        few = "is too few" if ranking.ranked == 1 else "are too few"
-        lacking = "a test" if ranking.is_rate else "intervals and tests"
-        lines.append(f"{_units(ranking, ranking.ranked)} {few} for {lacking}.")
+    too_few = _too_few(ranking)
+    if too_few and not (lines[0].startswith(too_few) or all(place.relation is Relation.IDENTICAL for place in others)):
+        lines.append(f"{too_few} for {'a test' if ranking.is_rate else 'intervals and tests'}.")
     return lines
 
 
@@ -84,6 +83,8 @@ def _first(ranking: Ranking, first: Place, others: Sequence[Place]) -> list[str]
     if others and len(alike) == len(others):
         return [f"{all_of_them} differ too little to matter: {span(ranking)}."]
     if others and all(place.relation is Relation.OPEN for place in others):
+        if too_few := _too_few(ranking):
+            return [f"{too_few} to compare {listed(everyone)}: {span(ranking)}."]
         possible = largest(ranking, unknown)
         more = [f"The difference may be up to {possible}."] if possible else []
         return [f"There is no clear difference between {listed(everyone)}: {span(ranking)}.", *more]
@@ -107,7 +108,8 @@ def _of_two(ranking: Ranking, place: Place) -> list[str]:
         or not difference.value
     ):
         return []
-    return [f"{place.name} has {change(ranking, difference)}."]
+    tested = place.relation is Relation.OPEN and (difference.low > 0 or difference.high < 0)
+    return [f"{place.name} has {change(ranking, difference)}{', which the test does not confirm' * tested}."]
 
 
 def _apart(ranking: Ranking, place: Place) -> str:
@@ -123,6 +125,13 @@ def _apart(ranking: Ranking, place: Place) -> str:
         + ", but it fails more often." * (place.fails_more)
         + "." * (not place.fails_more)
     )
+
+
+def _too_few(ranking: Ranking) -> str:
+    """Return the words that there are too few units for a comparison; none if there are enough."""
+    if ranking.ranked >= LEAST:
+        return ""
+    return f"{_units(ranking, ranking.ranked)} {'is' if ranking.ranked == 1 else 'are'} too few"
 
 
 def _units(ranking: Ranking, count: int) -> str:

@@ -5,12 +5,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mrpbench_analysis.observed_run import Sampling, observe
+from mrpbench_analysis.observed_run import Sampling, observe, observe_recording
 from mrpbench_analysis.resampling import even_times, resample
 
 from mrpbench_core.api.format import Observed, Track
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet, RobotModel
+from mrpbench_core.model.execution.motion import Mode
 from mrpbench_core.model.planning.scenario import Scenario, Task
 from mrpbench_core.model.worlds.world import Level, World
 
@@ -31,10 +32,10 @@ def scenario(*goals, levels=None, starts=1):
     return Scenario(start=[[0, 0, 0]] * starts, start_level=[0] * starts, tasks=(task,))
 
 
-def seen(found, tracks, world=None, **sampling):
+def seen(found, tracks, world=None, complete=True, **sampling):
     world = world or attrs.evolve(HOUSE, levels=HOUSE.levels[:1])
     fleet = Fleet(robots=(DISC,) * len(found.start))
-    return observe(Observed(tracks=tuple(tracks)), world, fleet, found, Sampling(**sampling))
+    return observe(Observed(tracks=tuple(tracks), complete=complete), world, fleet, found, Sampling(**sampling))
 
 
 @settings(deadline=None, max_examples=60)
@@ -124,3 +125,55 @@ def test_tasks_of_an_online_scenario_are_refused():
     late = attrs.evolve(scenario(4.0), tasks=(Task(goals=[[4, 0, NAN]], release=3.0),))
     with pytest.raises(InputError, match="released over time"):
         seen(late, [track([0, 9], [0, 4])])
+
+
+def test_the_problem_has_the_starts_and_the_goals_in_their_order():
+    found = seen(scenario(4.0, 1.0, starts=2), [track([0, 9], [0, 4]), track([0, 9], [0, 0], robot="b")])
+    problem = found.context.problem
+    assert problem.roadmap.position[problem.start].tolist() == [[0, 0], [0, 0]]
+    assert [problem.roadmap.position[list(places)].tolist() for places in problem.goals[0]] == [[[4, 0]], [[1, 0]]]
+    assert problem.goals[1] == ()
+
+
+SECONDS = np.arange(0, 10.05, 0.1)
+STANDS = np.minimum(0.3 * SECONDS, 1.5)
+UNSEEN = np.concatenate([SECONDS[:20], SECONDS[60:]])
+
+
+@pytest.mark.parametrize(
+    ("a", "more", "open_ends"),
+    [
+        (track(SECONDS, 0.5 * SECONDS), {"complete": False}, ()),  # at its goal, which it leaves
+        (track(SECONDS, STANDS), {}, ()),
+        (track(SECONDS, 0.3 * SECONDS), {}, ("a still moves when the recording ends",)),
+        (track(SECONDS, np.minimum(0.3 * SECONDS, 2.5)), {"max_gap": 1.0}, ()),
+        (track(SECONDS, np.minimum(0.3 * SECONDS, 2.5)), {"max_gap": 2.5}, ("a still moves when the recording ends",)),
+        (track(SECONDS[:71], STANDS[:71]), {}, ("a is not seen in the last 3.0 s",)),
+        (track(SECONDS[:91], STANDS[:91]), {}, ()),
+        (track(UNSEEN, np.where(UNSEEN < 5, 0.0, 1.5)), {}, ("a moved unseen and may have been at its goals",)),
+        (track(SECONDS, STANDS), {"complete": False}, ("the end of the recording is missing or damaged",)),
+        (track(SECONDS, STANDS), {"until": 9.0}, ("the rest of the recording is cut off",)),
+        (track(SECONDS, STANDS), {"until": 10.0}, ()),
+    ],
+)
+def test_an_end_is_open_if_a_robot_is_neither_seen_at_its_goals_nor_standing(a, more, open_ends):
+    other = track(SECONDS, np.zeros(len(SECONDS)), robot="b")
+    assert seen(scenario(4.0, starts=2), [a, other], **more).open_ends == open_ends
+
+
+@pytest.mark.parametrize(
+    ("reached", "mode", "complete", "is_open"),
+    [
+        (1, Mode.FOLLOWING, False, False),
+        (0, Mode.FOLLOWING, False, True),
+        (0, Mode.ABORTED, False, False),
+        (0, Mode.FOLLOWING, True, False),
+    ],
+)
+def test_the_end_of_a_damaged_recording_of_ours_is_open_before_arrivals_and_aborts(reached, mode, complete, is_open):
+    tracks = (track([0, 1], [0, 1]),)
+    context = seen(scenario(1.0), tracks).context
+    channels = {"time": np.array([0.0, 1.0]), "reached": np.array([[0], [reached]]), "mode": np.array([[0], [mode]])}
+    found = observe_recording(Observed(tracks=tracks, channels=channels, complete=complete), context)
+    assert found.open_ends == (("the end of the recording is missing or damaged",) if is_open else ())
+    assert found.channels["truth"][:, 0, 0].tolist() == [0, 1]

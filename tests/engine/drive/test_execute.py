@@ -68,6 +68,19 @@ class Broken(WritableFormat):
 """
 
 
+FLAT = """
+import attrs
+
+from mrpbench_core.builtin.simulators.kinematic import Kinematic
+
+
+@attrs.frozen(kw_only=True)
+class Flat(Kinematic):
+    def open(self, world, fleet, placements, seed, period, movers=(), levels=None):
+        return super().open(world, fleet, placements, seed, period, movers)
+"""
+
+
 def executed(tmp_path, **changes):
     (point,) = load_study({**RUN, **changes}).runs
     paths = RunPaths(recording=tmp_path / "recordings" / "run.zip", exports=tmp_path / "exports")
@@ -91,6 +104,18 @@ def test_the_error_of_an_aborted_run_names_robots_that_gave_up_and_the_cause(tmp
     assert record["error"]["message"].startswith(
         "a robot gave up before all had arrived: robot_0: no_progress; robot_1"
     )
+
+
+@pytest.mark.parametrize("floor", [1, 2])
+def test_a_simulator_that_ignores_levels_is_refused_where_robots_start_on_upper_ones(tmp_path, monkeypatch, floor):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "flat.py").write_text(FLAT)
+    places = {"starts": [f"L{floor}_south_1"], "goals": [f"L{floor}_south_25"]}
+    hospital = {"world": "hospital", "roadmap": "graph", "scenario": {"plugin": "named", **places}}
+    record = executed(tmp_path, **hospital, planner="prioritized", simulator="./flat.py:Flat")
+    refused = "the simulator supports the lowest level only, and robots start on other levels"
+    message = record["error"]["message"]
+    assert message == refused if floor == 2 else message.startswith("not all robots arrived within 8")
 
 
 @pytest.mark.parametrize("when", ["open", "write", "close", "exit"])

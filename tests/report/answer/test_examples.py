@@ -49,6 +49,19 @@ def chosen(part, run_ids):
     return {example.label: (run_ids[example.run], example.text) for example in part.runs}
 
 
+def test_runs_that_only_plan_have_no_motion_to_look_at_but_failures(results, driven):
+    columns = INVOCATION.replace("stage: execution", "stage: planning")
+    records = [driven("a", seed, 10.0 + seed) for seed in range(3)]
+    for more, labels in (([], []), ([driven("a", 3, 0.0, "no plan")], ["failed"])):
+        found = results(records + more, name=f"plans {labels}", invocation=columns)
+        (found.folder.path / "recordings").mkdir()
+        for entry in records + more:
+            found.paths(entry["run_id"]).recording.touch()
+        report = make_report([found])
+        chosen = choose_examples(report, make_answer(report))
+        assert [example.label for part in chosen for example in part.runs] == labels
+
+
 def test_the_longest_the_typical_and_the_shortest_run_are_chosen(examples, driven):
     (part,), run_ids = examples([driven("a", seed, took) for seed, took in enumerate([30.0, 10.0, 50.0, 20.0, 90.0])])
     assert chosen(part, run_ids) == {

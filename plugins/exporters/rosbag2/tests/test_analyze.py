@@ -351,10 +351,13 @@ def test_the_recording_is_kept_and_analysing_again_is_another_attempt(analyze, f
     _, first, _ = analyze(bag)
     _, again, _ = analyze(bag, "--metrics", "execution")
     assert (again["run_id"], first["attempt"], again["attempt"]) == (first["run_id"], 1, 2)
+    assert analyze(bag)[1]["attempt"] == 3
     _, other, _ = analyze(bag, "--rate", 5)
     assert other["run_id"] != first["run_id"]
     results = load(tmp_path / "measured")
     assert len(results) == 2
+    assert results.entry(first["run_id"]).attempt == 3
+    assert len(list((results.folder.path / "recordings").iterdir())) == 2, "of each run the last attempt"
     recording = Recording(results.folder.run(other["run_id"]).recording)
     assert recording.channel("truth").shape == (101, 2, 3)
     assert recording.context().run_id == other["run_id"]

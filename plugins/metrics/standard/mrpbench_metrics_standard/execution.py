@@ -163,9 +163,12 @@ class Execution(Metric):
         cell_size = self.mrp_bench_cell_size or (grid.cell_size if grid else 0.35)
         goal = np.array([place[:2] for place in context.goal]).reshape(-1, 2)
         start = np.array([route.waypoint[0, :2] for route in context.routes]).reshape(-1, 2)
-        return values | measure_as_original(
+        original = measure_as_original(
             time, truth[..., :2], start, goal, self.mrp_bench_tolerance, cell_size, self.mrp_bench_timeout
         )
+        if run.has("task_time"):  # the original has one goal per robot
+            original |= {column.name: None for column in COLUMNS if column.requires}
+        return values | original
 
     def _progress(self, run: FinishedRun, time: Float, truth: Float) -> dict[str, Value]:
         reached, routes = run.channel("reached"), run.context.routes

@@ -1,5 +1,6 @@
 """The original's metrics, counted by hand from its definitions."""
 
+import attrs
 import numpy as np
 import pytest
 from mrpbench_metrics_standard import Execution
@@ -46,6 +47,18 @@ def test_robots_that_never_leave_have_no_duration(executed):
     values = CELL.measure(run)
     assert values["mrp_bench.success"] is True
     assert values["mrp_bench.duration_s"] is None
+
+
+def test_where_tasks_keep_coming_there_is_no_goal_to_measure(executed):
+    run = executed([0, 0.5], [along_x([0, 1]), [(0, 5)] * 2], [[0, 1], [0, 0]], [[(0, 0), (1, 0)], [(0, 5)]])
+    none = dict.fromkeys(("task_time", "task_event", "task_id", "task_robot", "task_errand"), lambda: np.zeros(0, int))
+    tasks = attrs.evolve(run, channels={**run.channels, **none})
+    one_goal, many = (CELL.measure(it) for it in (run, tasks))
+    assert one_goal["mrp_bench.success"] is True
+    lost = {name for name in many if name.startswith("mrp_bench.") and (many[name] is None) != (one_goal[name] is None)}
+    parts = ("success", "duration_s", "goals_reached", "time_blocked_s", "time_blocked_max_s")
+    assert lost == {f"mrp_bench.{part}" for part in parts}
+    assert many["mrp_bench.min_distance_m"] == 5.0
 
 
 def test_blocked_messages_are_counted_over_ten(executed):

@@ -16,8 +16,8 @@ from mrpbench_core.model.common.fleet import RobotModel
 
 _CLEARANCE = 0.01
 """metres between the floor and the body of a robot without a URDF."""
-_PLAY = 0.0005
-"""metres between floor and casters when such a robot is level, so that its wheels bear the weight."""
+PLAY = 0.0005
+"""metres between floor and casters when a robot is level, so that its wheels bear the weight."""
 _WHEEL_SHARE = 0.1
 """Mass of one wheel as a share of such a robot's, as in the TurtleBot3's model for Gazebo; light wheels err more."""
 _GRAVITY = 9.81
@@ -118,7 +118,7 @@ def plain_body(robot: RobotModel) -> RobotBody:
     low, high = _CLEARANCE, robot.height
     footprint = robot.footprint.tolist()
     front, rear = max(x for x, _ in footprint), min(x for x, _ in footprint)
-    glides = [(end * 0.9, 0.0, _PLAY) for end in (front, rear)]
+    glides = [(end * 0.9, 0.0, PLAY) for end in (front, rear)]
     points = np.array([(x, y, z) for x, y in footprint for z in (low, high)] + glides)
     mass, radius = robot.mass * (1 - 2 * _WHEEL_SHARE), robot.wheel_radius
     side = np.array([*np.ptp(robot.footprint, axis=0).tolist(), high - low]) ** 2

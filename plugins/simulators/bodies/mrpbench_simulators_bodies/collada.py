@@ -22,7 +22,7 @@ def collada_points(mesh: Path) -> Float:
     """
     root = parse_xml(read_text(mesh), mesh, "a COLLADA file")
     for element in root.iter():
-        element.tag = element.tag.rpartition("}")[2]
+        element.tag = element.tag.rpartition(":")[2]
     unit = root.find("asset/unit")
     return _Reader(root, mesh).scene() * float(_numbers(mesh, None if unit is None else unit.get("meter"), 1, "1")[0])
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.urdf import numbers
+from mrpbench_core.files.xml import line_of
 
 SHAPES: dict[str, dict[str, int]] = {
     "box": {"size": 3},
@@ -38,24 +39,26 @@ def check_links(description: ET.Element, wheels: Collection[str], file: Path) ->
             for name in ("xyz", "rpy"):
                 numbers(origin, name, _ZERO, file)
         for collision in link.iterfind("collision"):
-            _check_shape(next(iter(collision.iterfind("geometry/*")), None), owner, file)
+            _check_shape(collision, owner, file)
         for inertia in link.iterfind("inertial/inertia"):
             for name in inertia.attrib:
                 numbers(inertia, name, (0.0,), file)
         for mass in link.iterfind("inertial/mass"):
             if (kilogram := float(numbers(mass, "value", (0.0,), file)[0])) < 0:
-                raise InputError(f"the mass {owner} is negative", file=file)
+                raise InputError(f"the mass {owner} is negative", file=file, line=line_of(mass))
             rest += kilogram * (link.get("name") not in turning)
     if not rest:
         raise InputError("only its driven wheels have mass", file=file)
 
 
-def _check_shape(shape: ET.Element | None, owner: str, file: Path) -> None:
+def _check_shape(collision: ET.Element, owner: str, file: Path) -> None:
+    shape, line = next(iter(collision.iterfind("geometry/*")), None), line_of(collision)
     if shape is None or shape.tag not in SHAPES:
         described = "no shape" if shape is None else f"the shape {shape.tag!r}"
-        raise InputError(f"a collision {owner} has {described}", file=file, hint=f"shapes: {', '.join(SHAPES)}")
+        hint = f"shapes: {', '.join(SHAPES)}"
+        raise InputError(f"a collision {owner} has {described}", file=file, line=line, hint=hint)
     for name, count in SHAPES[shape.tag].items():
         if numbers(shape, name, (0.0,) * count, file).min() <= 0:
-            raise InputError(f"the {name} of a {shape.tag} {owner} is not positive", file=file)
+            raise InputError(f"the {name} of a {shape.tag} {owner} is not positive", file=file, line=line)
     if shape.tag == "mesh" and not numbers(shape, "scale", (1.0, 1.0, 1.0), file).all():
-        raise InputError(f"the scale of a mesh {owner} is 0", file=file)
+        raise InputError(f"the scale of a mesh {owner} is 0", file=file, line=line)

@@ -17,6 +17,7 @@ from mrpbench_core.model.common.fleet import RobotModel, Urdf
 from mrpbench_simulators_bodies.body import RobotBody, Shape, Wheel, hull
 from mrpbench_simulators_bodies.links import SHAPES, check_links
 from mrpbench_simulators_bodies.meshes import mesh_objects
+from mrpbench_simulators_bodies.stance import above_floor, check_stance
 
 _BEYOND = 0.01
 """metres by which a body may stand out beyond the footprint that planners keep free."""
@@ -28,7 +29,8 @@ def described_body(robot: RobotModel, urdf: Urdf) -> RobotBody:
     """Read the body of a robot.
 
     Raises:
-        InputError: the URDF or one of its meshes is wrong, or the body is larger than the footprint.
+        InputError: the URDF or one of its meshes is wrong, or the body is larger than the footprint or does not
+            stand on its wheels.
     """
     file = Path(urdf.file)
     description = read_urdf(file)
@@ -39,7 +41,8 @@ def described_body(robot: RobotModel, urdf: Urdf) -> RobotBody:
     reader.base[:3, 3] = -x, -y, robot.wheel_radius - z
     body = reader.body(robot.wheel_radius)
     _check_size(body, robot, file)
-    return body
+    check_stance(body, robot, file)
+    return attrs.evolve(body, shapes=above_floor(body.shapes))
 
 
 @attrs.define

@@ -235,7 +235,7 @@ def test_a_mesh_that_cannot_be_read_is_one_line(tmp_path, name, content, message
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        (BODY, "", r"cart\.urdf: a collision of the link 'base_link' has no shape \(shapes: box, sphere"),
+        (BODY, "", r"cart\.urdf:10: a collision of the link 'base_link' has no shape \(shapes: box, sphere"),
         (BODY, '<ellipsoid size="1 1 1"/>', "has the shape 'ellipsoid'"),
         (BODY, "<box/>", "the size of a box of the link 'base_link' is not positive"),
         (BODY, '<box size="0.4 0.2"/>', "size='0.4 0.2' of a 'box' must be 3 numbers"),
@@ -256,10 +256,17 @@ def test_a_wrong_value_is_one_line(tmp_path, old, new, message):
         body_of(changed(tmp_path, (old, new)))
 
 
+SUSPENSION = """<link name="strut"/>
+  <joint name="suspension" type="prismatic"><parent link="base_link"/><child link="strut"/></joint>
+  <joint name="left_wheel_joint" type="continuous">"""
+
+
 @pytest.mark.parametrize(
     "change",
     [
         ('name="cart"', ""),
+        ('<link name="caster">', '<drake:member link="cap"/><link name="caster">'),
+        ('<joint name="left_wheel_joint" type="continuous">', SUSPENSION),
         ("left_wheel", "left'][wheel"),
         ('<joint name="caster_joint" type="fixed">', '<joint name="caster_joint" type="floating">'),
         ('<joint name="cap_joint" type="fixed">', '<joint name="cap_joint" type="revolute">'),
@@ -275,6 +282,54 @@ def test_what_is_sound_in_other_urdfs_drives(simulator, tmp_path, change):
     changes = [change, ('child link="left_wheel"', 'child link="left\'][wheel"')][: 2 if "][" in change[1] else 1]
     pose, _, _ = drive(simulator, [[0.4, 0.0]], 2, [[0, 0, 0]], robot=changed(tmp_path, *changes))
     assert pose[-1, 0, 0] == pytest.approx(0.8 - 0.4**2 / 2, abs=0.02)
+
+
+HIGH = ("-0.02 0 0.03", "-0.02 0 0.15")
+"""Lifts the body of the cart, so that only its caster is near the floor."""
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        (
+            [("-0.16 0 -0.029", "-0.16 0 -0.045")],
+            r"'caster' reaches 0\.015 m into the floor \(with all other joints at",
+        ),
+        ([HIGH, ("-0.16 0 -0.029", "-0.16 0 0.1")], r"nothing behind the axle is near the floor, .* \(add the coll"),
+        ([HIGH, ('"-0.02 0 0.02"', '"0.02 0 0.02"')], "nothing in front of the axle is near the floor"),
+        ([HIGH, ('"-0.02 0 0.02"', '"-0.004 0 0.02"')], "nothing in front of the axle is near the floor"),
+    ],
+)
+def test_a_robot_that_does_not_stand_on_its_wheels_is_refused(tmp_path, changes, message):
+    body_of(changed(tmp_path, HIGH))
+    with pytest.raises(InputError, match=message):
+        body_of(changed(tmp_path, *changes))
+
+
+def test_a_wheel_radius_that_is_not_that_of_the_wheels_mesh_is_refused(tmp_path):
+    """The wheel is a box that reaches 0.06 m down from its axle."""
+    wheel, mesh = '<cylinder radius="0.06" length="0.03"/>', '<mesh filename="wheel.obj" scale="0.3 0.4615 0.2"/>'
+    (tmp_path / "wheel.obj").write_bytes(obj())
+    (tmp_path / "cap.obj").write_bytes((FOLDER / "cap.obj").read_bytes())
+    (tmp_path / "cart.urdf").write_text((FOLDER / "cart.urdf").read_text().replace(wheel, mesh))
+    robot = (FOLDER / "cart.yaml").read_text()
+    (tmp_path / "cart.yaml").write_text(robot + "wheel_radius: 0.063\n")
+    body_of(load_robot("cart.yaml", tmp_path))
+    (tmp_path / "cart.yaml").write_text(robot + "wheel_radius: 0.1\n")
+    with pytest.raises(InputError, match=r"'left_wheel_joint' reaches 0\.06 m down .*, but wheel_radius is 0\.1 "):
+        body_of(load_robot("cart.yaml", tmp_path))
+
+
+@pytest.mark.parametrize("shape", ["box", "mesh"])
+@pytest.mark.parametrize("lower", [0.03, 0.035])
+def test_wheels_bear_the_weight_of_a_body_that_is_drawn_down_to_the_floor(simulator, tmp_path, lower, shape):
+    """Its bottom is level with the floor, or 5 mm beneath it, as in the URDFs of sold robots."""
+    (tmp_path / "body.obj").write_bytes(obj())
+    changes = [("-0.02 0 0.03", f"-0.02 0 {0.03 - lower}"), (BODY, '<mesh filename="body.obj"/>')]
+    robot = changed(tmp_path, *changes[: 1 if shape == "box" else 2])
+    pose, _, _ = drive(simulator, [[0.4, 0.8]], 4, [[0, 0, 0]], robot=robot)
+    turned = np.unwrap(pose[:, 0, 2])
+    assert (turned[-1] - turned[-21]) / (20 * PERIOD) == pytest.approx(0.8, abs=0.01)
 
 
 @pytest.mark.parametrize("name", ["07-urdf-two-roots-segv/u14.yaml", "08-urdf-ascii-stl/u07b.yaml"])

@@ -107,7 +107,7 @@ def body_shape(bullet: Bullet, shape: Shape) -> int:
         "sphere": lambda: {"shapeType": module.GEOM_SPHERE, "radius": shape.size[0]},
         "cylinder": lambda: {"shapeType": module.GEOM_CYLINDER, "radius": shape.size[0], "height": shape.size[1]},
         "capsule": lambda: {"shapeType": module.GEOM_CAPSULE, "radius": shape.size[0], "height": shape.size[1]},
-        "hull": lambda: {"shapeType": module.GEOM_MESH, "vertices": _within_margin(shape.points).tolist()},
+        "hull": lambda: {"shapeType": module.GEOM_MESH, "vertices": _within_margin(shape).tolist()},
     }
     made: int = bullet.createCollisionShape(
         **kinds[shape.kind](),
@@ -117,10 +117,11 @@ def body_shape(bullet: Bullet, shape: Shape) -> int:
     return made
 
 
-def _within_margin(points: Float) -> Float:
-    """Raise the lowest points f8[k,3] of a hull by what Bullet adds around it, if they are as near to the floor."""
-    raised = points.copy()
-    raised[:, 2] += np.where((points[:, 2] > 0) & (points[:, 2] < _MARGIN), _MARGIN, 0.0)
+def _within_margin(shape: Shape) -> Float:
+    """The points f8[k,3] of a hull: the lowest are raised by what Bullet adds around it, if they are near the floor."""
+    height = shape.corners()[:, 2]
+    low = (height > 0) & (height < _MARGIN)
+    raised: Float = shape.points + np.outer(low * _MARGIN, shape.frame[2, :3])
     return raised
 
 

@@ -1,5 +1,6 @@
 """Reads images as greyscale; needs the extra `images`."""
 
+import re
 import warnings
 from pathlib import Path
 
@@ -51,12 +52,14 @@ def read_image(file: Path, named: Node) -> GreyscaleImage:
                     return GreyscaleImage(tone, np.arange(65536) / 65535, np.ones(tone.shape, bool))
                 colours = np.asarray(image.convert("RGBA"))
     except FileNotFoundError:
-        raise named.error(f"there is no image {file}", "the option image names another") from None
+        raise _missing(file, named) from None
     except (Image.DecompressionBombWarning, Image.DecompressionBombError):
         raise _too_large(file, named) from None
     except InputError:
         raise
     except Exception as error:  # noqa: BLE001 - Pillow has no class of errors for broken files
+        if _is_pointer(file):
+            raise InputError("is a pointer of Git LFS, not the image", file=file, hint="git lfs pull") from None
         raise InputError(f"is not an image that Pillow reads: {one_line(error)}", file=file) from None
     tone = colours[..., :3].sum(axis=2, dtype=np.uint16)
     return GreyscaleImage(tone, np.arange(3 * 255 + 1) / 3 / 255, colours[..., 3] == 255)
@@ -65,3 +68,18 @@ def read_image(file: Path, named: Node) -> GreyscaleImage:
 def _too_large(file: Path, named: Node) -> InputError:
     most = f"crop it, or make its resolution coarser: {PIXELS // 10**6} million pixels at most"
     return named.error(f"image {file} is too large", most)
+
+
+def _missing(file: Path, named: Node) -> InputError:
+    """Return the error that an image is missing; maps that were moved have it beside the file that names it."""
+    hint = "the option image names another"
+    if named.document.file is not None:
+        names = {entry.name.lower(): entry.name for entry in named.document.file.absolute().parent.iterdir()}
+        beside = names.get(re.split(r"[/\\]", str(file))[-1].lower())
+        hint = hint if beside is None else f"beside this file is {beside}"
+    return named.error(f"there is no image {file}", hint)
+
+
+def _is_pointer(file: Path) -> bool:
+    with file.open("rb") as content:
+        return content.read(40).startswith(b"version https://git-lfs")

@@ -233,6 +233,25 @@ def test_a_mistake_is_named_with_its_line(load, old, new, message):
     assert message in str(caught.value)
 
 
+@pytest.mark.parametrize("name", ["/home/robot/maps/Floor.PNG", r"C:\maps\floor.png", "maps/floor.png"])
+def test_an_image_that_was_moved_beside_its_file_is_suggested(load, tmp_path, name):
+    (tmp_path / "floor.png").touch()
+    with pytest.raises(InputError, match=r"there is no image .* \(beside this file is floor\.png\)"):
+        load([[0]], YAML.replace("map.png", name))
+
+
+def test_a_pointer_of_git_lfs_is_named(load, tmp_path):
+    (tmp_path / "pointer.pgm").write_text("version https://git-lfs.github.com/spec/v1\noid sha256:0\nsize 12\n")
+    with pytest.raises(InputError, match=r"pointer\.pgm: is a pointer of Git LFS, not the image \(git lfs pull\)"):
+        load([[0]], YAML.replace("map.png", "pointer.pgm"))
+
+
+def test_a_roadmap_of_a_map_without_a_free_cell_says_why(load):
+    world = load([[0, 0], [0, 0]])
+    with pytest.raises(InputError, match=r"has no free cell \(no cell is free \(image, mode, negate, free_thresh"):
+        GridRoadmap().build(world, Fleet(robots=(load_robot("turtlebot3_burger"),)))
+
+
 def test_an_unknown_key_is_noted(load):
     assert load([[0, 254]], YAML + "colour: 1\n").notes == ("key 'colour' is not known and has no effect.",)
 

@@ -1,5 +1,7 @@
 """People of building files: what they do, where, and what of it is refused or left out."""
 
+from pathlib import Path
+
 import pytest
 from mrpbench_worlds_standard.rmf import Rmf
 
@@ -120,3 +122,12 @@ def test_the_people_of_the_original_benchmark_are_read(shared_data):
     assert sum(group.people for group in world.people) == 8
     assert len(world.activities) == 8
     assert not any("crowd_sim" in note for note in world.notes)
+
+
+def test_the_section_that_the_how_to_shows_is_read(tmp_path):
+    page = (Path(__file__).parents[5] / "docs/how-to/people.md").read_text()
+    section = page[page.index("crowd_sim:\n") :].partition("```")[0]
+    world = load(tmp_path, BUILDING.partition("crowd_sim:")[0].replace("[1, tea]", "[1, kitchen]") + section)
+    assert world.people == (PeopleGroup(people=4, x=2.4, y=10.0, level=0, activity=0),)
+    assert [(len(it.places), it.following) for it in world.activities] == [(2, ((1, 1),)), (0, ((2, 1),)), (1, ((0, 1),))]
+    assert world.notes == ()
