@@ -78,6 +78,8 @@ class DependencyGraph:
             self._waiting.setdefault(key, []).append(group)
         self._met: list[int] = seen.reshape(-1).tolist()
         """The number of segments up to which dependencies are met: rows of REACHED, then those of CLEARED."""
+        self._unmet_rows: dict[int, list[int]] | None = None
+        """The rows of the dependencies of each group that are not met; None = made when they are read next."""
         self.segment: list[int] = moves.segment.tolist()
         self.robot: list[int] = moves.robot.tolist()
         self.first, self.last = moves.first[:-1].tolist(), moves.first[1:].tolist()
@@ -150,7 +152,7 @@ class DependencyGraph:
         for move in (move for _, group in added for move in self.rotations.get(group, (group,))):
             if self.segment[move] < committed[self.robot[move]]:
                 raise DispatchError(f"robot {self.robot[move]} is already on its way where another is to pass first")
-        self.order = order
+        self.order, self._unmet_rows = order, None
         for key, group in removed:
             self._waiting[key] = [other for other in self._waiting[key] if other != group]
             self.unmet[group] -= 1
@@ -207,6 +209,7 @@ class DependencyGraph:
             if value <= met:
                 continue
             self._met[row] = value
+            self._unmet_rows = None
             for key in range(row * self._stride + met + 1, row * self._stride + value + 1):
                 for group in self._waiting.pop(key, ()):
                     self.unmet[group] -= 1
@@ -290,5 +293,9 @@ class DependencyGraph:
         return [other for other in found if other != robot]
 
     def _blockers(self, group: int) -> list[int]:
-        waits = (key // self._stride for key, groups in self._waiting.items() if group in groups)
-        return list(dict.fromkeys(row % len(self.frontier) for row in waits))
+        if self._unmet_rows is None:
+            self._unmet_rows = {}
+            for key, groups in self._waiting.items():
+                for waiting in groups:
+                    self._unmet_rows.setdefault(waiting, []).append(key // self._stride)
+        return list(dict.fromkeys(row % len(self.frontier) for row in self._unmet_rows.get(group, ())))

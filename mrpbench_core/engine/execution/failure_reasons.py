@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
+from functools import cached_property
 
 import attrs
 import numpy as np
@@ -47,10 +48,11 @@ class FailureReasons:
     """Robots to whose goals no way is left."""
     dispatcher_waits_for: Callable[[int], Sequence[int] | None]
     """Of the session; see `mrpbench_core.api.dispatcher`."""
-    dependencies: Dependencies = attrs.field(
-        default=attrs.Factory(lambda self: Dependencies(self.problem, self.plan), takes_self=True)
-    )
-    """Of the plan."""
+
+    @cached_property
+    def dependencies(self) -> Dependencies:
+        """Of the plan, for dispatchers that do not say for whom a robot waits."""
+        return Dependencies(self.problem, self.plan)
 
     def reasons(self) -> dict[int, str]:
         """Return the reason for each robot that did not arrive: its own, or the robot for which it waits."""
@@ -135,14 +137,20 @@ class FailureReasons:
             near = gap < self.problem.radius + self.problem.radius[robot]
             found += np.flatnonzero(near)[np.argsort(gap[near], kind="stable")].tolist()
         awaited = self.dispatcher_waits_for(robot)
-        found += awaited or []
-        graph = self.dependencies
-        if awaited is None and (move := graph.next_move(robot, int(self.orders.released[robot]))) is not None:
-            for other, needed, reached in graph.of(move):
-                known = self.faults.told or self.motion
-                done = known.reached if reached else known.cleared
-                found += [other] if done[other] < needed else []
+        found += self._due_before(robot) if awaited is None else awaited
         return [other for other in dict.fromkeys(found) if other != robot]
+
+    def _due_before(self, robot: int) -> list[int]:
+        """The robots that pass before a robot in the plan, and have not passed."""
+        move = self.dependencies.next_move(robot, int(self.orders.released[robot]))
+        if move is None:
+            return []
+        known = self.faults.told or self.motion
+        return [
+            other
+            for other, needed, reached in self.dependencies.of(move)
+            if (known.reached if reached else known.cleared)[other] < needed
+        ]
 
     def _next_move(self, robot: int) -> Float | None:
         """The ends f8[2,2] of the first move that a robot has not completed."""
