@@ -27,7 +27,7 @@ class DependencyGraph:
     all of its dependencies are met. A wait is released with the move after it.
     """
 
-    def __init__(self, problem: Problem, plan: Plan, group_margin: float, ahead: int, seen: Int) -> None:
+    def __init__(self, problem: Problem, plan: Plan, group_margin: float, ahead: int, counts: Int) -> None:
         """Prepare the release of a plan in its own order.
 
         Args:
@@ -35,7 +35,7 @@ class DependencyGraph:
             plan: in whose order moves are released.
             group_margin: metres beyond their radii that robots of a rotation must keep if they move in step.
             ahead: segments before a resource at which a robot asks for it.
-            seen: counts i8[2,n] of leading segments that robots have reached, and cleared.
+            counts: counts i8[2,n] of leading segments that robots have reached, and cleared.
 
         Raises:
             DispatchError: the order has a cycle that is not a rotation, or a rotation without enough room.
@@ -65,8 +65,8 @@ class DependencyGraph:
         self._stride = int(sizes.max(initial=0)) + 1
         dependencies = np.concatenate([self._dependencies(self.order), self._follows()])
         keys, waiting = np.divmod(dependencies, max(1, len(moves.robot)))
-        rows, counts = np.divmod(keys, self._stride)
-        open_ = counts > seen.reshape(-1)[rows]
+        rows, numbers = np.divmod(keys, self._stride)
+        open_ = numbers > counts.reshape(-1)[rows]
         keys, waiting = keys[open_], waiting[open_]
         unmet = np.bincount(waiting, minlength=len(moves.robot))
         # Lists from here on, because they are read one number at a time.
@@ -76,7 +76,7 @@ class DependencyGraph:
         """The groups that wait for a robot to reach or clear a number of segments, by row and number."""
         for key, group in zip(keys.tolist(), waiting.tolist(), strict=True):
             self._waiting.setdefault(key, []).append(group)
-        self._met: list[int] = seen.reshape(-1).tolist()
+        self._met: list[int] = counts.reshape(-1).tolist()
         """The number of segments up to which dependencies are met: rows of REACHED, then those of CLEARED."""
         self._unmet_rows: dict[int, list[int]] | None = None
         """The rows of the dependencies of each group that are not met; None = made when they are read next."""
