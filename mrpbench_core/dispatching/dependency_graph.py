@@ -79,7 +79,7 @@ class DependencyGraph:
         self._met: list[int] = counts.reshape(-1).tolist()
         """The number of segments up to which dependencies are met: rows of REACHED, then those of CLEARED."""
         self._unmet_rows: dict[int, list[int]] | None = None
-        """The rows of the dependencies of each group that are not met; None = made when they are read next."""
+        """The rows of the unmet dependencies of each group that is next for some robot; None = not known yet."""
         self.segment: list[int] = moves.segment.tolist()
         self.robot: list[int] = moves.robot.tolist()
         self.first, self.last = moves.first[:-1].tolist(), moves.first[1:].tolist()
@@ -203,6 +203,7 @@ class DependencyGraph:
     def update(self, counts: Int, robots: Int) -> None:
         """Meet the dependencies on `robots` i8[k], given the counts i8[2,n] of leading segments, and release moves."""
         ready = []
+        waiting, unmet = self._waiting, self.unmet
         rows = np.add.outer(robots, np.array([REACHED, CLEARED]) * len(self.frontier)).ravel()
         for row, value in zip(rows.tolist(), counts.ravel()[rows].tolist(), strict=True):
             met = self._met[row]
@@ -211,9 +212,9 @@ class DependencyGraph:
             self._met[row] = value
             self._unmet_rows = None
             for key in range(row * self._stride + met + 1, row * self._stride + value + 1):
-                for group in self._waiting.pop(key, ()):
-                    self.unmet[group] -= 1
-                    if not self.unmet[group]:
+                for group in waiting.pop(key, ()):
+                    unmet[group] -= 1
+                    if not unmet[group]:
                         ready.append(group)
         self.rotating += [self.rotations[group] for group in ready if group in self.rotations]
         for group in ready:
@@ -228,11 +229,12 @@ class DependencyGraph:
         return tuple(group for group, goes in zip(groups, going, strict=True) if goes)
 
     def _advance(self, robot: int) -> None:
-        move = self.frontier[robot]
-        while move < self.last[robot] and not self.unmet[self.group[move]] and self._may_use(robot, move):
+        self._unmet_rows = None
+        move, last, needs = self.frontier[robot], self.last[robot], self.requests.needs
+        while move < last and not self.unmet[self.group[move]] and (not needs or self._may_use(robot, move)):
             move += 1
         self.frontier[robot] = move
-        if move == self.last[robot]:
+        if move == last:
             self.released[robot] = self.lengths[robot]
         elif move > self.first[robot]:
             self.released[robot] = self.segment[move - 1] + 1
@@ -293,9 +295,12 @@ class DependencyGraph:
         return [other for other in found if other != robot]
 
     def _blockers(self, group: int) -> list[int]:
+        """The robots for which a group that is next for some robot still waits."""
         if self._unmet_rows is None:
-            self._unmet_rows = {}
+            ahead = (move for move, last in zip(self.frontier, self.last, strict=True) if move < last)
+            self._unmet_rows = {self.group[move]: [] for move in ahead}
             for key, groups in self._waiting.items():
                 for waiting in groups:
-                    self._unmet_rows.setdefault(waiting, []).append(key // self._stride)
-        return list(dict.fromkeys(row % len(self.frontier) for row in self._unmet_rows.get(group, ())))
+                    if waiting in self._unmet_rows:
+                        self._unmet_rows[waiting].append(key // self._stride)
+        return list(dict.fromkeys(row % len(self.frontier) for row in self._unmet_rows[group]))

@@ -8,12 +8,12 @@ import attrs
 import numpy as np
 
 from mrpbench_core.engine.execution.faults import FaultState, approaches
-from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.common.geometry import point_segment_distance
 from mrpbench_core.model.execution.motion import Motion
 from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.planning.dependencies import Dependencies
-from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 
 
@@ -82,9 +82,8 @@ class FailureReasons:
         for other, name in self.orders.requests:
             if other == robot and (robot, name) not in self.granted and name in self.faults.broken:
                 return f"waits for {name}, which is out of order"
-        ends = self._next_move(robot)
         for blockage in self.faults.blockages:
-            if ends is None:
+            if (ends := self._next_move(robot)) is None:
                 break
             reach = self.problem.radius[[robot]] + blockage.radius
             here, tail = np.array(blockage.place), np.array([self.pose[robot, :2]])
@@ -119,8 +118,7 @@ class FailureReasons:
         return self._under_way(robot)
 
     def _under_way(self, robot: int) -> str:
-        edge = self.plan.paths[robot].edge[int(self.motion.reached[robot]) :]
-        ends = self.problem.roadmap.position[self.problem.roadmap.edges[edge[edge >= 0]]]
+        ends = self._moves_ahead(robot)
         left = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())
         return f"was under way at {self._place(robot)}, with {left:.1f} m of its path left"
 
@@ -154,11 +152,12 @@ class FailureReasons:
 
     def _next_move(self, robot: int) -> Float | None:
         """The ends f8[2,2] of the first move that a robot has not completed."""
-        edge = self.plan.paths[robot].edge
-        ahead: Int = np.flatnonzero(edge[int(self.motion.reached[robot]) :] >= 0)
-        if not len(ahead):
-            return None
-        found: Float = self.problem.roadmap.position[
-            self.problem.roadmap.edges[edge[int(self.motion.reached[robot]) + int(ahead[0])]]
-        ]
-        return found
+        ends = self._moves_ahead(robot)
+        return ends[0] if len(ends) else None
+
+    def _moves_ahead(self, robot: int) -> Float:
+        """The ends f8[k,2,2] of the moves that a robot has not completed."""
+        paths, roadmap = Paths.of(self.plan.paths), self.problem.roadmap
+        edge = paths.edge[paths.first[robot] + self.motion.reached[robot] : paths.first[robot + 1]]
+        ends: Float = roadmap.position[roadmap.edges[edge[edge >= 0]]]
+        return ends
