@@ -27,7 +27,7 @@ class DependencyGraph:
     all of its dependencies are met. A wait is released with the move after it.
     """
 
-    def __init__(self, problem: Problem, plan: Plan, group_margin: float, ahead: int, seen: Int) -> None:
+    def __init__(self, problem: Problem, plan: Plan, group_margin: float, ahead: int, counts: Int) -> None:
         """Prepare the release of a plan in its own order.
 
         Args:
@@ -35,7 +35,7 @@ class DependencyGraph:
             plan: in whose order moves are released.
             group_margin: metres beyond their radii that robots of a rotation must keep if they move in step.
             ahead: segments before a resource at which a robot asks for it.
-            seen: counts i8[2,n] of leading segments that robots have reached, and cleared.
+            counts: counts i8[2,n] of leading segments that robots have reached, and cleared.
 
         Raises:
             DispatchError: the order has a cycle that is not a rotation, or a rotation without enough room.
@@ -65,8 +65,8 @@ class DependencyGraph:
         self._stride = int(sizes.max(initial=0)) + 1
         dependencies = np.concatenate([self._dependencies(self.order), self._follows()])
         keys, waiting = np.divmod(dependencies, max(1, len(moves.robot)))
-        rows, counts = np.divmod(keys, self._stride)
-        open_ = counts > seen.reshape(-1)[rows]
+        rows, numbers = np.divmod(keys, self._stride)
+        open_ = numbers > counts.reshape(-1)[rows]
         keys, waiting = keys[open_], waiting[open_]
         unmet = np.bincount(waiting, minlength=len(moves.robot))
         # Lists from here on, because they are read one number at a time.
@@ -76,8 +76,10 @@ class DependencyGraph:
         """The groups that wait for a robot to reach or clear a number of segments, by row and number."""
         for key, group in zip(keys.tolist(), waiting.tolist(), strict=True):
             self._waiting.setdefault(key, []).append(group)
-        self._met: list[int] = seen.reshape(-1).tolist()
+        self._met: list[int] = counts.reshape(-1).tolist()
         """The number of segments up to which dependencies are met: rows of REACHED, then those of CLEARED."""
+        self._unmet_rows: dict[int, list[int]] | None = None
+        """The rows of the unmet dependencies of each group that is next for some robot; None = not known yet."""
         self.segment: list[int] = moves.segment.tolist()
         self.robot: list[int] = moves.robot.tolist()
         self.first, self.last = moves.first[:-1].tolist(), moves.first[1:].tolist()
@@ -150,7 +152,7 @@ class DependencyGraph:
         for move in (move for _, group in added for move in self.rotations.get(group, (group,))):
             if self.segment[move] < committed[self.robot[move]]:
                 raise DispatchError(f"robot {self.robot[move]} is already on its way where another is to pass first")
-        self.order = order
+        self.order, self._unmet_rows = order, None
         for key, group in removed:
             self._waiting[key] = [other for other in self._waiting[key] if other != group]
             self.unmet[group] -= 1
@@ -201,16 +203,18 @@ class DependencyGraph:
     def update(self, counts: Int, robots: Int) -> None:
         """Meet the dependencies on `robots` i8[k], given the counts i8[2,n] of leading segments, and release moves."""
         ready = []
+        waiting, unmet = self._waiting, self.unmet
         rows = np.add.outer(robots, np.array([REACHED, CLEARED]) * len(self.frontier)).ravel()
         for row, value in zip(rows.tolist(), counts.ravel()[rows].tolist(), strict=True):
             met = self._met[row]
             if value <= met:
                 continue
             self._met[row] = value
+            self._unmet_rows = None
             for key in range(row * self._stride + met + 1, row * self._stride + value + 1):
-                for group in self._waiting.pop(key, ()):
-                    self.unmet[group] -= 1
-                    if not self.unmet[group]:
+                for group in waiting.pop(key, ()):
+                    unmet[group] -= 1
+                    if not unmet[group]:
                         ready.append(group)
         self.rotating += [self.rotations[group] for group in ready if group in self.rotations]
         for group in ready:
@@ -225,11 +229,12 @@ class DependencyGraph:
         return tuple(group for group, goes in zip(groups, going, strict=True) if goes)
 
     def _advance(self, robot: int) -> None:
-        move = self.frontier[robot]
-        while move < self.last[robot] and not self.unmet[self.group[move]] and self._may_use(robot, move):
+        self._unmet_rows = None
+        move, last, needs = self.frontier[robot], self.last[robot], self.requests.needs
+        while move < last and not self.unmet[self.group[move]] and (not needs or self._may_use(robot, move)):
             move += 1
         self.frontier[robot] = move
-        if move == self.last[robot]:
+        if move == last:
             self.released[robot] = self.lengths[robot]
         elif move > self.first[robot]:
             self.released[robot] = self.segment[move - 1] + 1
@@ -290,5 +295,12 @@ class DependencyGraph:
         return [other for other in found if other != robot]
 
     def _blockers(self, group: int) -> list[int]:
-        waits = (key // self._stride for key, groups in self._waiting.items() if group in groups)
-        return list(dict.fromkeys(row % len(self.frontier) for row in waits))
+        """The robots for which a group that is next for some robot still waits."""
+        if self._unmet_rows is None:
+            ahead = (move for move, last in zip(self.frontier, self.last, strict=True) if move < last)
+            self._unmet_rows = {self.group[move]: [] for move in ahead}
+            for key, groups in self._waiting.items():
+                for waiting in groups:
+                    if waiting in self._unmet_rows:
+                        self._unmet_rows[waiting].append(key // self._stride)
+        return list(dict.fromkeys(row % len(self.frontier) for row in self._unmet_rows[group]))

@@ -17,6 +17,8 @@ from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.type2_edges import Moves
 
+_NOBODY: Int = np.zeros(0, np.int64)
+
 
 @attrs.frozen(kw_only=True)
 class OrderKeepingDispatcher(Dispatcher):
@@ -60,9 +62,11 @@ class OrderKeepingSession(DispatcherSession):
 
     def __init__(self, options: OrderKeepingDispatcher, problem: Problem, plan: Plan) -> None:
         self.options = options
-        self.seen = np.zeros((2, len(problem)), np.int64)
+        self.counts = np.zeros((2, len(problem)), np.int64)
         """Counts i8[2,n] of leading segments reached and cleared."""
         self.released: Int32 = np.zeros(len(problem), np.int32)
+        self._view_counts = self.released, self.released
+        """What was reached and cleared in the view before."""
         self.plan = plan
         self.adopt(problem, plan)
 
@@ -81,11 +85,11 @@ class OrderKeepingSession(DispatcherSession):
         for robot in _differing(old.part(gone, self.released), new.part(np.zeros_like(gone), self.released - gone)):
             count = self.released[robot]
             raise DispatchError(f"the new path of robot {robot} does not begin with the {count} segments released")
-        seen, released = np.maximum(self.seen - gone, 0), self.released - gone
+        counts, released = np.maximum(self.counts - gone, 0), self.released - gone
         committed: Int32 = np.maximum(released, problem.committed).astype("i4")
-        graph = DependencyGraph(problem, plan, self.options.group_margin, self.options.request_ahead, seen)
+        graph = DependencyGraph(problem, plan, self.options.group_margin, self.options.request_ahead, counts)
         graph.commit(committed)
-        self.problem, self.plan, self.graph, self.seen = problem, plan, graph, seen
+        self.problem, self.plan, self.graph, self.counts = problem, plan, graph, counts
         self._speed: Float = np.zeros(0)
         self._profiles = (
             SpeedProfiles(problem, graph, self.options.speed_margin) if self.options.speed_profiles else None
@@ -127,31 +131,38 @@ class OrderKeepingSession(DispatcherSession):
 
     def update(self, now: float, view: FleetView) -> Orders:
         """Release the moves that no longer wait for anything, given the progress of the robots."""
-        seen = np.maximum(self.seen, (view.reached, view.cleared))
-        changed = (seen != self.seen).any(axis=0).nonzero()[0]
+        counts, changed = self._progress(view)
         slowed = self._profiles is not None and now >= self._profiles_due
         if slowed and self._profiles is not None:
-            self._speed, self._profiles_due = self._profiles.speed(seen, view.pose[:, :2]), now + PERIOD
+            self._speed, self._profiles_due = self._profiles.speed(counts, view.pose[:, :2]), now + PERIOD
             self._free = self.graph.released.copy()  # as these limits assume
         if self.orders is None or len(changed) or self.graph.requests or slowed:
-            self.orders = self._orders(view, seen, changed)
+            self.orders = self._orders(view, counts, changed)
         return self.orders
 
-    def _orders(self, view: FleetView, seen: Int, changed: Int) -> Orders:
+    def _progress(self, view: FleetView) -> tuple[Int, Int]:
+        """The counts i8[2,n] of leading segments reached and cleared, and the robots i8[k] whose counts changed."""
+        if view.reached is self._view_counts[0] and view.cleared is self._view_counts[1]:
+            return self.counts, _NOBODY
+        self._view_counts = view.reached, view.cleared
+        counts = np.maximum(self.counts, self._view_counts)
+        return counts, (counts != self.counts).any(axis=0).nonzero()[0]
+
+    def _orders(self, view: FleetView, counts: Int, changed: Int) -> Orders:
         if len(changed):
-            self.seen = seen
-            self.graph.update(seen, changed)
-        requested = self.graph.request(seen, view.granted)
+            self.counts = counts
+            self.graph.update(counts, changed)
+        requested = self.graph.request(counts, view.granted)
         if requested or len(changed):
             self._release()
             if len(self._speed):  # whoever may go on now does not wait for the next profile
                 self._speed = np.where(self.graph.released > self._free, np.inf, self._speed)
         requests = self.graph.requests.pairs()
-        in_step = self.graph.in_step(seen[REACHED])
+        in_step = self.graph.in_step(counts[REACHED])
         return Orders(released=self.released, requests=requests, in_step=in_step, speed=self._speed)
 
     def _release(self) -> None:
-        ahead = (self.seen[REACHED] + 1 + self.options.lookahead).astype(np.int32)
+        ahead = (self.counts[REACHED] + 1 + self.options.lookahead).astype(np.int32)
         self.released = frozen_array(np.maximum(self.released, np.minimum(self.graph.released, ahead)), "i4")
 
 

@@ -80,14 +80,14 @@ class SpeedProfiles:
         found._graph = graph
         return found
 
-    def speed(self, seen: Int, position: Float) -> Float:
+    def speed(self, counts: Int, position: Float) -> Float:
         """The speed f8[n] m/s that each robot should not exceed now, inf = any.
 
         Args:
-            seen: counts i8[2,n] of leading segments reached and cleared.
+            counts: counts i8[2,n] of leading segments reached and cleared.
             position: f8[n,2] metres.
         """
-        network = self.network(seen, position)
+        network = self.network(counts, position)
         late = late_times(network)
         latest = latest_arrivals(network, late)
         distance = _accumulated(network.length)
@@ -99,11 +99,11 @@ class SpeedProfiles:
         speed[slowed] = np.maximum(1 / (pace + slope[slowed]), LEAST / pace)
         return speed
 
-    def network(self, seen: Int, position: Float) -> Network:
+    def network(self, counts: Int, position: Float) -> Network:
         """The moves ahead, given the same arguments, and who waits for whom as far as it is not over."""
         moves, order, group = self._graph.moves, self._graph.order, self._graph.group_of_moves
         robots = np.arange(len(position))
-        present = np.searchsorted(self._place, robots * self._stride + seen[REACHED])
+        present = np.searchsorted(self._place, robots * self._stride + counts[REACHED])
         count = np.clip(moves.first[1:] - present, 0, AHEAD)
         ahead = np.arange(int(count.max(initial=1)))
         move, inside = present[:, None] + ahead, ahead < count[:, None]
@@ -119,7 +119,7 @@ class SpeedProfiles:
             duration[some, 0] *= share
             length[some, 0] *= share
         row = np.where(order.completed, REACHED, CLEARED)
-        waits = seen[row, moves.robot[order.before]] <= moves.segment[order.before]
+        waits = counts[row, moves.robot[order.before]] <= moves.segment[order.before]
         waits &= group[order.before] != group[order.after]  # robots of a rotation go together
         for end in (order.before, order.after):
             column = end - present[moves.robot[end]]

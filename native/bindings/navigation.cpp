@@ -193,6 +193,7 @@ nb::ndarray<nb::numpy, double> command(PurePursuit& self, const Vector<Index>& r
        {pose.shape(0), twist.shape(0), foot.shape(0), begin.size(), end.size(), yaw.size(), speed.size()}) {
     require(size == count, "one row for each robot");
   }
+  constexpr std::size_t soon = 8;  // the paths of a fleet do not fit the cache
   const auto all = rows<Point>(points);
   std::vector<double> commands;
   commands.reserve(2 * count);
@@ -201,6 +202,7 @@ nb::ndarray<nb::numpy, double> command(PurePursuit& self, const Vector<Index>& r
     const auto from = static_cast<std::size_t>(begin.data()[i]), to = static_cast<std::size_t>(end.data()[i]);
     require(which < self.robots.size(), "there is no such robot");
     require(from < to && to <= all.size(), "a path has a point");
+    if (i + soon < count) __builtin_prefetch(&all[static_cast<std::size_t>(begin.data()[i + soon]) % all.size()]);
     bool turning = self.turning[which] != 0;
     const Twist twist_of = pursue(self.options, self.robots[which],
                                   {rows<Pose>(pose)[i], rows<Twist>(twist)[i], rows<Point>(foot)[i],

@@ -39,7 +39,7 @@ def drawn_network(seed):
         executor.step(now, released)
     session.update(99.0, executor.view())
     profiles = SpeedProfiles(problem, session.graph, margin=float(random.random()))
-    return profiles.network(session.seen, problem.roadmap.position[random.integers(0, len(problem), len(problem))])
+    return profiles.network(session.counts, problem.roadmap.position[random.integers(0, len(problem), len(problem))])
 
 
 def earliest_by_linear_program(network: Network):

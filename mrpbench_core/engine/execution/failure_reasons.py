@@ -2,17 +2,18 @@
 
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
+from functools import cached_property
 
 import attrs
 import numpy as np
 
 from mrpbench_core.engine.execution.faults import FaultState, approaches
-from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.common.geometry import point_segment_distance
 from mrpbench_core.model.execution.motion import Motion
 from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.planning.dependencies import Dependencies
-from mrpbench_core.model.planning.plan import Plan
+from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 
 
@@ -47,10 +48,11 @@ class FailureReasons:
     """Robots to whose goals no way is left."""
     dispatcher_waits_for: Callable[[int], Sequence[int] | None]
     """Of the session; see `mrpbench_core.api.dispatcher`."""
-    dependencies: Dependencies = attrs.field(
-        default=attrs.Factory(lambda self: Dependencies(self.problem, self.plan), takes_self=True)
-    )
-    """Of the plan."""
+
+    @cached_property
+    def dependencies(self) -> Dependencies:
+        """Of the plan, for dispatchers that do not say for whom a robot waits."""
+        return Dependencies(self.problem, self.plan)
 
     def reasons(self) -> dict[int, str]:
         """Return the reason for each robot that did not arrive: its own, or the robot for which it waits."""
@@ -80,9 +82,8 @@ class FailureReasons:
         for other, name in self.orders.requests:
             if other == robot and (robot, name) not in self.granted and name in self.faults.broken:
                 return f"waits for {name}, which is out of order"
-        ends = self._next_move(robot)
         for blockage in self.faults.blockages:
-            if ends is None:
+            if (ends := self._next_move(robot)) is None:
                 break
             reach = self.problem.radius[[robot]] + blockage.radius
             here, tail = np.array(blockage.place), np.array([self.pose[robot, :2]])
@@ -117,8 +118,7 @@ class FailureReasons:
         return self._under_way(robot)
 
     def _under_way(self, robot: int) -> str:
-        edge = self.plan.paths[robot].edge[int(self.motion.reached[robot]) :]
-        ends = self.problem.roadmap.position[self.problem.roadmap.edges[edge[edge >= 0]]]
+        ends = self._moves_ahead(robot)
         left = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())
         return f"was under way at {self._place(robot)}, with {left:.1f} m of its path left"
 
@@ -135,22 +135,29 @@ class FailureReasons:
             near = gap < self.problem.radius + self.problem.radius[robot]
             found += np.flatnonzero(near)[np.argsort(gap[near], kind="stable")].tolist()
         awaited = self.dispatcher_waits_for(robot)
-        found += awaited or []
-        graph = self.dependencies
-        if awaited is None and (move := graph.next_move(robot, int(self.orders.released[robot]))) is not None:
-            for other, needed, reached in graph.of(move):
-                known = self.faults.told or self.motion
-                done = known.reached if reached else known.cleared
-                found += [other] if done[other] < needed else []
+        found += self._due_before(robot) if awaited is None else awaited
         return [other for other in dict.fromkeys(found) if other != robot]
+
+    def _due_before(self, robot: int) -> list[int]:
+        """The robots that pass before a robot in the plan, and have not passed."""
+        move = self.dependencies.next_move(robot, int(self.orders.released[robot]))
+        if move is None:
+            return []
+        known = self.faults.told or self.motion
+        return [
+            other
+            for other, needed, reached in self.dependencies.of(move)
+            if (known.reached if reached else known.cleared)[other] < needed
+        ]
 
     def _next_move(self, robot: int) -> Float | None:
         """The ends f8[2,2] of the first move that a robot has not completed."""
-        edge = self.plan.paths[robot].edge
-        ahead: Int = np.flatnonzero(edge[int(self.motion.reached[robot]) :] >= 0)
-        if not len(ahead):
-            return None
-        found: Float = self.problem.roadmap.position[
-            self.problem.roadmap.edges[edge[int(self.motion.reached[robot]) + int(ahead[0])]]
-        ]
-        return found
+        ends = self._moves_ahead(robot)
+        return ends[0] if len(ends) else None
+
+    def _moves_ahead(self, robot: int) -> Float:
+        """The ends f8[k,2,2] of the moves that a robot has not completed."""
+        paths, roadmap = Paths.of(self.plan.paths), self.problem.roadmap
+        edge = paths.edge[paths.first[robot] + self.motion.reached[robot] : paths.first[robot + 1]]
+        ends: Float = roadmap.position[roadmap.edges[edge[edge >= 0]]]
+        return ends

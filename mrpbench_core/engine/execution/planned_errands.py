@@ -26,10 +26,13 @@ class PlannedErrands:
 
     def adopt(self, errands: Sequence[Errands], done: Callable[[tuple[int, int]], bool]) -> None:
         """Note that the paths of a plan lead to these errands, of which some may be `done` since it was asked for."""
+        self.in_force, self._planned = [*errands], [*self._asked]
+        self.gone = np.zeros(len(errands), np.int64)
         for robot, way in enumerate(errands):
-            gone = next((number for number, errand in enumerate(way) if not done(errand)), len(way))
-            self.gone[robot], self.in_force[robot] = gone, way[gone:]
-            self._planned[robot] = self._asked[robot][gone:]
+            if way and done(way[0]):
+                gone = next((number for number, errand in enumerate(way) if not done(errand)), len(way))
+                self.gone[robot], self.in_force[robot] = gone, way[gone:]
+                self._planned[robot] = self._asked[robot][gone:]
 
     def visit(self, robot: int) -> tuple[int, int]:
         """Note that a robot has been at the next errand of its path, and return that."""

@@ -1,6 +1,6 @@
 """Seconds that robots need from place to place, for assigners that are called again and again."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from functools import lru_cache
 from itertools import pairwise
 
@@ -66,11 +66,13 @@ class QueueCosts:
         here = np.where(np.eye(len(sets[0])), 0.0, np.inf)
         return through(here, (self.seconds(profile, np.array(a), np.array(b)) for a, b in pairwise(sets)))
 
-    def nearest_first(self, way: Iterable[Errand], start: int) -> list[Errand]:
+    def nearest_first(self, way: Sequence[Errand], start: int) -> Sequence[Errand]:
         """Sort the places of errands that a robot does in order by the time on the roadmap to get there.
 
         The way begins at `start`, then at the first place of the errand before. Places without a way are left out.
         """
+        if len(way) == 1 and len(way[0].yaws) == 1:  # the usual case
+            return way
         found = []
         for errand in way:
             if len(errand.yaws) > 1:

@@ -60,6 +60,8 @@ class TaskBoard:
         """For each robot the tasks to do, in order; only the first may have begun."""
         self.resting: set[int] = set()
         """All robots that rest at their errands, and perhaps others."""
+        self.changed: set[int] = set(range(robots))
+        """Robots whose errands ahead have changed; whoever takes note of that empties it."""
         self.finished = 0
         """Tasks that are done or given up, or that no robot can do."""
         self.events: list[TaskEvent] = []
@@ -98,7 +100,10 @@ class TaskBoard:
         before = {index: job.robot for index, job in self.jobs.items() if job.robot >= 0}
         for robot, queue in enumerate(queues):
             job = self.begun(robot)
-            self.queues[robot] = [*([] if job is None else [job.task.index]), *queue]
+            new = [*([] if job is None else [job.task.index]), *queue]
+            if new != self.queues[robot]:
+                self.queues[robot] = new
+                self.changed.add(robot)
         for job in self.jobs.values():
             job.robot = -1
         for robot, own in enumerate(self.queues):
@@ -128,6 +133,7 @@ class TaskBoard:
             return False
         self._note(now, index, "errand", robot, job.errand)
         job.errand += 1
+        self.changed.add(robot)
         self._leave(robot, job)
         if job.errand == len(job.places):
             self._note(now, index, "done", robot)
@@ -143,6 +149,7 @@ class TaskBoard:
             self.finished += 1
             del self.jobs[job.task.index]
             self.queues[robot].pop(0)
+            self.changed.add(robot)
 
     def leave(self, robot: int) -> None:
         """Note that a robot does not rest at its errand; a service that was interrupted begins again."""

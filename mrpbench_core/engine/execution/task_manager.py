@@ -78,8 +78,10 @@ class TaskManager:
         """Tasks or robots have changed since the last assignment."""
         self._sequences = sequences
         self._planned = PlannedErrands(len(problem))
-        self._ways: dict[int, tuple[tuple[int, ...], list[Errand], Errands]] = {}
-        """By robot: what its errands ahead depend on, these, and their names."""
+        self._ways: list[list[Errand]] = [[] for _ in self._robots]
+        """The errands ahead of each robot."""
+        self._names: list[Errands] = [()] * len(problem)
+        """The names of the same."""
         self._missed: set[int] = set()
         """Robots that came to rest without having visited all goals of their paths; they stop at the next one."""
         self._held_back = False
@@ -169,11 +171,14 @@ class TaskManager:
                 continue
             if arrived[robot] and self._planned.in_force[robot] == ((job.task.index, job.errand),):
                 self._rest(now, robot, job)
-                self._missed.discard(robot)
+                if robot in self._missed:
+                    self._missed.remove(robot)
+                    self._board.changed.add(robot)
             else:
                 self._board.leave(robot)
                 if arrived[robot] and len(self._planned.in_force[robot]) > 1:
                     self._missed.add(robot)
+                    self._board.changed.add(robot)
                     self._planned.drop(robot)
         self._record()
 
@@ -211,7 +216,8 @@ class TaskManager:
         """Return why a new plan is needed now, or None: some robot's errand is not the one of its path."""
         if now < self._planned_at + self._interval - 1e-9:
             return None
-        wanted = [self._way(robot)[1] for robot in self._robots]
+        self._look_ahead()
+        wanted = self._names
         other = self._planned.others(wanted)
         if not other and not self._held_back:
             return None
@@ -231,14 +237,14 @@ class TaskManager:
         many robots are sent to errands, others each time, until a plan is found.
         """
         self._planned_at = now
-        ahead = [self._way(robot) for robot in self._robots]
-        self._planned.ask([names for _, names in ahead])
-        going = [robot for robot in np.flatnonzero(~held).tolist() if ahead[robot][0]]
-        ways = [self._costs.nearest_first(ahead[robot][0], int(self._head[robot])) for robot in going]
+        self._look_ahead()
+        self._planned.ask(self._names.copy())
+        going = [robot for robot in np.flatnonzero(~held).tolist() if self._ways[robot]]
+        ways = [self._costs.nearest_first(self._ways[robot], int(self._head[robot])) for robot in going]
         if restricted.roadmap is not self._roadmap:
             ways = [[*takewhile(lambda it: it.yaws, (self._within(restricted, it) for it in way))] for way in ways]
-        resting: list[list[Errand]] = []
-        moving: list[list[Errand]] = []
+        resting: list[Sequence[Errand]] = []
+        moving: list[Sequence[Errand]] = []
         for way in filter(None, ways):
             if math.isnan(self._board.jobs[way[0].task].since):
                 moving.append(way)
@@ -260,17 +266,12 @@ class TaskManager:
         """Note that no plan to the last goals takes effect."""
         self._failures += 1
 
-    def _way(self, robot: int) -> tuple[list[Errand], Errands]:
-        """The errands ahead of a robot, and their names."""
-        job = self._board.current(robot)
-        if job is None:
-            return [], ()
-        depends_on = (*self._board.queues[robot], job.errand, robot in self._missed)
-        known = self._ways.get(robot)
-        if known is None or known[0] != depends_on:
-            ahead = self._ahead(robot)
-            known = self._ways[robot] = depends_on, ahead, tuple((errand.task, errand.number) for errand in ahead)
-        return known[1:]
+    def _look_ahead(self) -> None:
+        """Take note of the errands ahead of robots for which they have changed."""
+        for robot in self._board.changed:
+            ahead = self._ways[robot] = self._ahead(robot)
+            self._names[robot] = tuple((errand.task, errand.number) for errand in ahead)
+        self._board.changed.clear()
 
     def _ahead(self, robot: int) -> list[Errand]:
         """The errands to which a plan leads a robot: the next one and, if it need not rest there, those after it."""

@@ -1,5 +1,7 @@
 """Builds the problem that a planner is given, from an instance and an assignment."""
 
+from collections.abc import Sequence
+
 import attrs
 import numpy as np
 
@@ -62,7 +64,7 @@ def _chosen(instance: RunInstance, problem: Problem, assigned: tuple[int, ...], 
     """
     costs = QueueCosts("roadmap", instance.roadmap, instance.fleet)
     goals = list(problem.goals)
-    ways: list[list[Errand]] = []
+    ways: list[Sequence[Errand]] = []
     for robot, task in enumerate(assigned):
         if task >= 0 and all(goal != (-1,) for goal in goals[robot]) and instance.start[robot] >= 0:
             yaws = goal_yaws(instance.roadmap, instance.scenario.tasks[task])

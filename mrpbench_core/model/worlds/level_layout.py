@@ -42,10 +42,11 @@ class LevelLayout:
         return spread
 
     def to_levels(self, pose: Float, level: Int16) -> Float:
-        """Return poses f8[n,2+] in the frame `map`, of robots at `pose` f8[n,2+] in the plane."""
+        """Return poses f8[n,2+] in the frame `map`, of robots at `pose` f8[n,2+] in the plane; maybe `pose` itself."""
+        if len(self._shift) == 1:
+            return pose
         gathered: Float = np.array(pose, float)
-        if len(self._shift) > 1:
-            gathered[:, :2] -= self._shift[level]
+        gathered[:, :2] -= self._shift[level]
         return gathered
 
     def door_outlines(self, facilities: Facilities, state: Mapping[str, float]) -> Float:

@@ -39,9 +39,20 @@ struct Ahead {
   bool is_finishing = false;  // it has reached all that is released, and drives on to its very end
 };
 
+/// What can change the progress of one robot while nothing more is released to it: the rows of the tables, side by
+/// side, because those of a fleet do not fit the cache. It follows from its progress alone.
+struct Awaited {
+  Arrival arrival;
+  Rounding rounding;
+  Clearing clearing;
+  bool may_arrive = false, may_round = false, may_clear = false;
+  bool at_once = false;  // the progress may change wherever the robot is
+};
+
 class RouteFollower {
  public:
-  RouteFollower(std::size_t size, const ArrivalRules& rules) : rules_(rules), progress_(size), ahead_(size) {}
+  RouteFollower(std::size_t size, const ArrivalRules& rules)
+      : rules_(rules), progress_(size), ahead_(size), awaited_(size) {}
 
   std::size_t size() const { return progress_.size(); }
 
@@ -71,12 +82,15 @@ class RouteFollower {
   void count_up_to(std::size_t robot, Index corner);
   void count_corners(std::size_t robot, const Pose& pose);
   void count_cleared(std::size_t robot, const Pose& pose, Index released);
+  bool goes_on(std::size_t robot, const Pose& pose, Index released) const;
   void look_ahead(std::size_t robot);
+  void await(std::size_t robot);
 
   ArrivalRules rules_;
   Routes routes_;
   std::vector<Progress> progress_;
   std::vector<Ahead> ahead_;
+  std::vector<Awaited> awaited_;
 };
 
 }  // namespace mrpbench::navigation

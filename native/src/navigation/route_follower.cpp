@@ -33,12 +33,24 @@ void RouteFollower::adopt(const Routes& routes, std::span<const std::int32_t> cu
 
 void RouteFollower::update(std::size_t robot, const Pose& pose, const Twist& twist, Index released,
                            std::int16_t level) {
+  if (!goes_on(robot, pose, released)) return;
   const Progress before = progress_[robot];
   count_reached(robot, pose, twist, released, level);
   if (rules_.beyond_bends) count_passed(robot, pose);
   count_corners(robot, pose);
   count_cleared(robot, pose, released);
   if (progress_[robot] != before) look_ahead(robot);
+}
+
+/// Tell whether the progress of a robot may change.
+bool RouteFollower::goes_on(std::size_t robot, const Pose& pose, Index released) const {
+  const Progress& it = progress_[robot];
+  const Awaited& next = awaited_[robot];
+  const Index allowed = rules_.stops ? std::min(it.reached + 1, released) : released;
+  if (next.at_once || it.halting || it.at_goal || it.released != allowed) return true;
+  return (next.may_arrive && next.arrival.holds(pose.x, pose.y)) ||
+         (next.may_round && next.rounding.holds(pose.x, pose.y)) ||
+         (next.may_clear && next.clearing.holds(pose.x, pose.y));
 }
 
 void RouteFollower::count_reached(std::size_t robot, const Pose& pose, const Twist& twist, Index released,
@@ -142,6 +154,29 @@ void RouteFollower::look_ahead(std::size_t robot) {
   ahead.uses_lift = is_open && routes_.level[here] != routes_.level[goal];
   ahead.may_drive = !it.halting && (it.end > 0 || !std::isnan(yaw));
   ahead.is_finishing = it.leg + 1 >= it.end && !is_open;
+  await(robot);
+}
+
+void RouteFollower::await(std::size_t robot) {
+  const Progress& it = progress_[robot];
+  const Index first_corner = routes_.first_corner[robot], reached = corner(robot, it.reached);
+  Awaited next;
+  next.at_once = rules_.beyond_bends;
+  next.may_arrive = it.reached < it.released;
+  if (next.may_arrive) {
+    const Index goal = routes_.first[robot] + it.reached + 1;
+    next.arrival = routes_.arrival[goal];
+    next.at_once = next.at_once || routes_.is_wait[goal];
+  }
+  next.may_round = it.leg + 1 < it.end && reached > it.leg;
+  if (next.may_round) next.rounding = routes_.rounding[first_corner + it.leg];
+  if (it.cleared < std::min(it.released, it.reached + 1)) {
+    const Index at = corner(robot, it.cleared);
+    next.may_clear = at < routes_.last_corner[robot] && reached >= at;
+    if (next.may_clear) next.clearing = routes_.clearing[first_corner + at];
+    next.at_once = next.at_once || (next.may_clear && routes_.is_short[first_corner + at] && reached > at);
+  }
+  awaited_[robot] = next;
 }
 
 void RouteFollower::rejoin(std::size_t robot, Point from) {

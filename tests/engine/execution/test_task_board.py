@@ -27,24 +27,42 @@ steps = st.lists(
 )
 
 
+def act(board, released, now, step):
+    """Do one of the `steps`; tasks are appended to `released`."""
+    kind, value, service = step
+    if kind == "release":
+        released.append(task(len(released), value, service))
+        board.release(float(now), released[-1], ({0: NAN},) * value)
+    elif kind == "assign":
+        pool = board.unbegun()
+        value.shuffle(pool)
+        queues = [[] for _ in range(ROBOTS)]
+        for index in pool:
+            if (robot := value.randrange(ROBOTS + 1)) < ROBOTS:
+                queues[robot].append(index)
+        board.assign(float(now), tuple(map(tuple, queues)))
+    elif board.current(value) is not None:
+        board.rest(float(now), value) if kind == "rest" else board.leave(value)
+
+
+@settings(max_examples=100, deadline=None)
+@given(steps)
+def test_robots_whose_errands_ahead_change_are_named(steps):
+    board, released = TaskBoard(ROBOTS), []
+    ahead = [[]] * ROBOTS
+    for now, step in enumerate(steps):
+        board.changed.clear()
+        act(board, released, now, step)
+        before, ahead = ahead, [[(index, board.jobs[index].errand) for index in queue] for queue in board.queues]
+        assert board.changed == {robot for robot in range(ROBOTS) if ahead[robot] != before[robot]}
+
+
 @settings(max_examples=100, deadline=None)
 @given(steps)
 def test_every_task_is_done_once_by_the_robot_that_began_it(steps):
     board, released = TaskBoard(ROBOTS), []
-    for now, (kind, value, service) in enumerate(steps):
-        if kind == "release":
-            released.append(task(len(released), value, service))
-            board.release(float(now), released[-1], ({0: NAN},) * value)
-        elif kind == "assign":
-            pool = board.unbegun()
-            value.shuffle(pool)
-            queues = [[] for _ in range(ROBOTS)]
-            for index in pool:
-                if (robot := value.randrange(ROBOTS + 1)) < ROBOTS:
-                    queues[robot].append(index)
-            board.assign(float(now), tuple(map(tuple, queues)))
-        elif board.current(value) is not None:
-            board.rest(float(now), value) if kind == "rest" else board.leave(value)
+    for now, step in enumerate(steps):
+        act(board, released, now, step)
     events = {index: [event for event in board.events if event.task == index] for index in range(len(released))}
     done = [index for index, own in events.items() if own[-1].kind == "done"]
     assert len(done) + len(board.jobs) == len(released)

@@ -25,7 +25,7 @@ BEGIN, CLEAR, COMPLETE = range(3)
 class State(NamedTuple):
     """How far robots are."""
 
-    seen: Int
+    counts: Int
     """Counts i8[2,n] of segments reached and cleared."""
     released: Int32
     progress: Progress
@@ -87,7 +87,7 @@ def alternative_graph(
     begun = (visits.begin == NONE) | _is_released(moves, visits.begin, state)
     ended = visits.end != NONE
     for row, needed in ((CLEARED, visits.cleared), (REACHED, visits.completed)):
-        ended &= ~needed | (state.seen[row, visits.robot] > moves.segment[visits.end])
+        ended &= ~needed | (state.counts[row, visits.robot] > moves.segment[visits.end])
     first, second = conflicts.pairs(visits, np.flatnonzero(~ended & (begun | events.has(visits.begin))))
     rotation = np.append(graph.rotation, NONE)
     counts = ~begun[second] & (visits.end[first] != NONE)
@@ -142,7 +142,7 @@ def _resource_arcs(graph: DependencyGraph, events: "_Events", state: State) -> I
     moves, resources = graph.moves, graph.resources
     done = np.where(resources.completed, REACHED, CLEARED)
     left = ~_is_released(moves, resources.after, state) & events.has(resources.after)
-    left &= state.seen[done, moves.robot[resources.before]] <= moves.segment[resources.before]
+    left &= state.counts[done, moves.robot[resources.before]] <= moves.segment[resources.before]
     return events.arcs(resources.before[left], resources.completed[left], resources.after[left])
 
 
@@ -183,7 +183,7 @@ class _Events:
         begin = self._origin[moves.robot] + 3 * np.arange(len(moves.robot))
         self.duration[begin[left]] = whole[left] // 2
         self.duration[begin[left] + CLEAR] = (whole - whole // 2)[left]
-        gone = under_way & (state.seen[CLEARED] > moves.segment[np.minimum(present, len(moves.robot) - 1)])
+        gone = under_way & (state.counts[CLEARED] > moves.segment[np.minimum(present, len(moves.robot) - 1)])
         at = begin[present[gone]]
         self.duration[at], self.duration[at + CLEAR] = 1, whole[present[gone]]
 

@@ -108,7 +108,7 @@ class BtpgSession(SwitchingSession):
 
     def _waiting(self) -> list[int]:
         """Robots that have made all their released moves and wait for others before the next one."""
-        graph, reached = self.graph, self.seen[REACHED]
+        graph, reached = self.graph, self.counts[REACHED]
         return [
             robot
             for robot, move in enumerate(graph.frontier)
@@ -172,7 +172,7 @@ class BtpgSession(SwitchingSession):
         robot, end = visits.robot[visit], visits.end[visit]
         ended: Bool = end != NONE
         for row, needed in ((CLEARED, visits.cleared[visit]), (REACHED, visits.completed[visit])):
-            ended &= ~needed | (self.seen[row, robot] > moves.segment[end])
+            ended &= ~needed | (self.counts[row, robot] > moves.segment[end])
         return ended
 
 

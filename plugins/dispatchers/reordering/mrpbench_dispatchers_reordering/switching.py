@@ -69,7 +69,7 @@ class SwitchingSession(OrderKeepingSession):
 
     def observe(self, now: float, view: FleetView) -> None:
         """Take note of the progress of the robots."""
-        self.progress.update(now, np.maximum(self.seen, (view.reached, view.cleared))[REACHED], self.released)
+        self.progress.update(now, np.maximum(self.counts, (view.reached, view.cleared))[REACHED], self.released)
 
     def update(self, now: float, view: FleetView) -> Orders:
         """Release the moves that no longer wait for anything."""
@@ -79,8 +79,8 @@ class SwitchingSession(OrderKeepingSession):
 
     def next_decisions(self, view: FleetView) -> AlternativeGraph:
         """What may be decided next about the order."""
-        seen = np.maximum(self.seen, (view.reached, view.cleared))
-        state = State(seen, self.released, self.progress)
+        counts = np.maximum(self.counts, (view.reached, view.cleared))
+        state = State(counts, self.released, self.progress)
         horizon, limit = self.options.horizon, self.options.move_limit
         return alternative_graph(self.graph, self.conflicts, self.visits, state, horizon, limit)
 
@@ -99,7 +99,7 @@ class SwitchingSession(OrderKeepingSession):
         shift = max(0, int(latest) + 2 * len(moves) - int(enter[others].min(initial=np.iinfo(np.int64).max)))
         enter[others] += shift
         leave[others] += shift
-        over = timed.segment < self.seen.min(axis=0)[timed.robot]
+        over = timed.segment < self.counts.min(axis=0)[timed.robot]
         try:
             self.retime(timed._replace(enter=enter, leave=leave), ~others & ~over)
         except DispatchError:

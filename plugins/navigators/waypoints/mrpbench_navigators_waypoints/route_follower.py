@@ -86,6 +86,8 @@ class RouteFollower:
         all_rules = attrs.asdict(rules) | attrs.asdict(progress or ProgressRules()) | {"beyond_bends": beyond_bends}
         self._native = Navigation(rules=all_rules, activities=attrs.asdict(self.activities))
         self._rows, state = self._native.rows, self._native.state
+        self._count, self._targets = -1, self._rows
+        """The number of rows of the last survey, and views of them."""
         self.begin: Int = state["begin"]
         """i8[n]: the waypoints ahead of robot i are `corners[begin[i]:end[i]]`."""
         self.end: Int = state["end"]
@@ -137,8 +139,9 @@ class RouteFollower:
             limits: f8[n] m/s allowed by others, or empty.
         """
         count, is_stuck, due, blocked = self._native.survey(now, pose, twist, limits)
-        rows = {name: values[:count] for name, values in self._rows.items()}
-        return Targets(rows=rows, stuck=self._stuck if is_stuck else None, due=due, blocked=blocked)
+        if count != self._count:
+            self._count, self._targets = count, {name: values[:count] for name, values in self._rows.items()}
+        return Targets(rows=self._targets, stuck=self._stuck if is_stuck else None, due=due, blocked=blocked)
 
     def ask_at_once(self, robot: int) -> None:
         """Let a robot ask for a detour when it is driven next."""

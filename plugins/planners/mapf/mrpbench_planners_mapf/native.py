@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from types import ModuleType
 
 import numpy as np
@@ -84,7 +85,7 @@ def solve(
 
 
 def _instance(problem: Problem, module: ModuleType, rank: Int32 | None, known: KnownRoadmap | None) -> mapf.Instance:
-    roadmap = problem.roadmap
+    roadmap, prefix = problem.roadmap, Paths.of(problem.commitments)
     arrays = SolverRoadmap(roadmap.position, roadmap.edges, roadmap.duration)
     robots = Robots(
         start=problem.start,
@@ -93,7 +94,10 @@ def _instance(problem: Problem, module: ModuleType, rank: Int32 | None, known: K
         ready=problem.ready,
         profile=problem.profile,
         radius=problem.radius,
-        committed=[Segments(path.edge, path.enter, path.leave) for path in problem.commitments],
+        committed=[
+            Segments(prefix.edge[begin:end], prefix.enter[begin:end], prefix.leave[begin:end])
+            for begin, end in pairwise(prefix.first.tolist())
+        ],
         rank=rank,
     )
     edges_after = len(roadmap.position)  # elements are vertices, then edges

@@ -8,7 +8,7 @@ import numpy as np
 from mrpbench_native.sim import Caster, Plane
 
 from mrpbench_core.api import Simulation
-from mrpbench_core.model.common.arrays import Float, Int16, frozen_array, read_only
+from mrpbench_core.model.common.arrays import Float, Int16, frozen_array
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.movers import MoverDiscs
 from mrpbench_core.model.execution.observation import ScanBatch
@@ -96,7 +96,7 @@ class PlanarSimulation(Simulation):
     def _observe(self) -> State:
         plane = self._plane
         self._pose = plane.pose
-        pose = read_only(self._layout.to_levels(self._pose, self._level))  # or it would be copied once more
+        pose = self._layout.to_levels(self._pose, self._level)
         return State(pose=pose, twist=plane.twist, level=self._level, contacts=plane.contacts, facilities=self._doing)
 
     def _operate(self, commands: Mapping[str, float]) -> None:
