@@ -40,7 +40,7 @@ ifdef UV
 	test -e $(STAMP) || UV_PROJECT_ENVIRONMENT=$(DEMO) UV_PYTHON_DOWNLOADS=never uv sync --quiet --locked --no-default-groups --group demo --python $(PYTHON)
 else
 	test -x $(DEMO)/bin/python || $(PYTHON) -m venv $(DEMO)
-	test -e $(STAMP) || $(DEMO)/bin/python -m pip install --quiet --disable-pip-version-check --constraint pinned.txt '.[figures]' ./native ./plugins ./plugins/replay ./plugins/exporters/rosbag2 ./plugins/simulators/mujoco
+	test -e $(STAMP) || $(DEMO)/bin/python -m pip install --quiet --disable-pip-version-check --constraint pinned.txt '.[figures]' ./native ./plugins ./plugins/replay ./plugins/scaffold ./plugins/world ./plugins/exporters/rosbag2 ./plugins/simulators/mujoco
 endif
 	$(DEMO)/bin/mrpbench demo
 

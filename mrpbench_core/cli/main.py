@@ -24,7 +24,6 @@ from mrpbench_core.version import __version__
 
 COMMANDS = {
     "demo": "compare two planners on a small scenario, with all that is installed",
-    "init": "write a commented configuration that runs",
     "run": "do the runs of a study that have no record yet",
     "report": "print tables of results with intervals, and write an HTML page",
     "export": "write a stored run in another format",

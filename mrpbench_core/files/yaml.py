@@ -176,9 +176,8 @@ class _DocumentReader:
             yield from yaml.parse(text, Loader=_LOADER)
         except yaml.MarkedYAMLError as error:
             if conflict := _CONFLICT.search(text):
-                line = text.count("\n", 0, conflict.start()) + 1
-                hint = "keep one of its two sides"
-                raise InputError("has a merge conflict of Git", file=self.file, line=line, hint=hint) from None
+                line, sides = text.count("\n", 0, conflict.start()) + 1, "keep one of its two sides"
+                raise InputError("has a merge conflict of Git", file=self.file, line=line, hint=sides) from None
             mark = error.problem_mark or error.context_mark
             hint = error.context
             if hint and error.context_mark and mark and error.context_mark.line != mark.line:

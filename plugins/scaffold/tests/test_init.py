@@ -1,6 +1,7 @@
 """`mrpbench init` where only the core is installed; `test_run.py` runs what it writes elsewhere."""
 
-from mrpbench_core.cli import init
+from mrpbench_scaffold.commands import init
+
 from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.kinds import GROUPS
 
