@@ -139,7 +139,7 @@ class _Reach:
     def __init__(self, roadmap: Roadmap) -> None:
         self._roadmap = roadmap
         self._label: dict[int, Int] = {}
-        self._seen: dict[tuple[int, int], Bool] = {}
+        self._reachable: dict[tuple[int, int], Bool] = {}
 
     def __call__(self, profile: int, source: int, target: int) -> bool:
         if profile not in self._label:
@@ -147,6 +147,6 @@ class _Reach:
         label = int(self._label[profile][source])
         if label == self._label[profile][target]:
             return True
-        if (profile, label) not in self._seen:
-            self._seen[profile, label] = reachable(self._roadmap, profile, source)
-        return bool(self._seen[profile, label][target])
+        if (profile, label) not in self._reachable:
+            self._reachable[profile, label] = reachable(self._roadmap, profile, source)
+        return bool(self._reachable[profile, label][target])

@@ -99,12 +99,12 @@ class DependencyGraph:
 
     def copied(self) -> "DependencyGraph":
         """A graph that goes on from here by itself."""
-        found = copy.copy(self)
-        found.requests = self.requests.copied()
-        found.unmet, found._met, found.frontier = self.unmet.copy(), self._met.copy(), self.frontier.copy()
-        found._waiting = self._waiting.copy()  # its lists never change
-        found.rotating, found.released = self.rotating.copy(), self.released.copy()
-        return found
+        twin = copy.copy(self)
+        twin.requests = self.requests.copied()
+        twin.unmet, twin._met, twin.frontier = self.unmet.copy(), self._met.copy(), self.frontier.copy()
+        twin._waiting = self._waiting.copy()  # its lists never change
+        twin.rotating, twin.released = self.rotating.copy(), self.released.copy()
+        return twin
 
     def _dependencies(self, order: Type2Edges) -> Int:
         """The key of the row and count, and the waiting group, of every dependency of an order, as one number i8[k]."""
@@ -143,8 +143,8 @@ class DependencyGraph:
                 remains as it was.
         """
         new = type2_edges(self._problem, moves, self.resources, chosen)
-        old, kept = (self.order.kept(which[self.order.before]) for which in (chosen, ~chosen))
-        order = Type2Edges(*(np.concatenate(columns) for columns in zip(kept, new, strict=True)))
+        old, unchanged = (self.order.kept(which[self.order.before]) for which in (chosen, ~chosen))
+        order = Type2Edges(*(np.concatenate(columns) for columns in zip(unchanged, new, strict=True)))
         self._check(moves, order, chosen)
         before, after = self._dependencies(old), self._dependencies(new)
         removed = self._unmet_among(np.setdiff1d(before, after, assume_unique=True))
@@ -291,8 +291,8 @@ class DependencyGraph:
     def blockers(self, robot: int) -> list[int]:
         """The other robots for which the first move of a robot that is not released still waits."""
         move = self.frontier[robot]
-        found = self._blockers(self.group[move]) if move < self.last[robot] else []
-        return [other for other in found if other != robot]
+        robots = self._blockers(self.group[move]) if move < self.last[robot] else []
+        return [other for other in robots if other != robot]
 
     def _blockers(self, group: int) -> list[int]:
         """The robots for which a group that is next for some robot still waits."""

@@ -42,9 +42,9 @@ class FixedOrder(BatchSession):
         self._waits = _Waits(dependencies, np.repeat(np.arange(executions) * robots, robots))
         self._rotations = _Rotations(graph, dependencies, executions, robots)
 
-    def update(self, now: float, seen: Int) -> BatchOrders:  # noqa: ARG002 - times do not matter
+    def update(self, now: float, progress: Int) -> BatchOrders:  # noqa: ARG002 - times do not matter
         """Release the moves that no longer wait for anything."""
-        counts = seen.reshape(-1)
+        counts = progress.reshape(-1)
         ahead = counts[: self._count] + (1 + self._lookahead)
         at = np.flatnonzero(self._waits.may_go(counts) & (self._free < ahead))
         while len(at):
@@ -53,7 +53,7 @@ class FixedOrder(BatchSession):
             self._free[at] = self._before[self._place[at]]
             at = at[self._free[at] < ahead[at]]
         self._released = np.maximum(self._released, np.minimum(self._free, ahead))
-        return BatchOrders(released=self._released.reshape(seen.shape[1:]), in_step=self._rotations.in_step(counts))
+        return BatchOrders(released=self._released.reshape(progress.shape[1:]), in_step=self._rotations.in_step(counts))
 
 
 class _Dependencies:
@@ -84,8 +84,8 @@ class _Waits:
 
     def may_go(self, counts: Int) -> Bool:
         """The subjects bool[k] whose known dependency is met."""
-        found: Bool = counts[self._place] >= self._number
-        return found
+        free: Bool = counts[self._place] >= self._number
+        return free
 
     def going(self, counts: Int, at: Int, group: Int) -> Int:
         """Those of the subjects `at` i8[j] whose `group` i8[j] depends on nothing more; note what others wait for."""
@@ -95,8 +95,8 @@ class _Waits:
         row = np.flatnonzero(waits)
         column, held = unmet[row].argmax(axis=1), at[row]
         self._place[held], self._number[held] = place[row, column], number[row, column]
-        found: Int = at[~waits]
-        return found
+        robots: Int = at[~waits]
+        return robots
 
 
 class _Rotations:

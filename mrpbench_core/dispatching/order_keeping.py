@@ -106,10 +106,10 @@ class OrderKeepingSession(DispatcherSession):
 
     def _copied(self) -> Self:
         """A copy for `DispatcherSession.copied`; a derived class copies what else it changes in place."""
-        found = copy.copy(self)
-        found.graph = self.graph.copied()
-        found._profiles = self._profiles and self._profiles.of(found.graph)
-        return found
+        twin = copy.copy(self)
+        twin.graph = self.graph.copied()
+        twin._profiles = self._profiles and self._profiles.of(twin.graph)
+        return twin
 
     def retime(self, moves: Moves, chosen: Bool) -> None:
         """Release the plan from now on in the order that its moves have at other times.

@@ -30,16 +30,16 @@ class ResourceRequests:
             )
             for move in range(max(occupation.first, int(moves.first[occupation.robot])), stop):
                 self.needs.setdefault(move, {})[occupation.resource] = before
-        for own in self._coming:
-            own.sort(key=lambda occupation: occupation.first, reverse=True)  # the next is the last
+        for coming in self._coming:
+            coming.sort(key=lambda occupation: occupation.first, reverse=True)  # the next is the last
         self._open: list[ResourceOccupation] = []
         """The longest requested first."""
 
     def copied(self) -> "ResourceRequests":
         """Requests that go on from here by themselves."""
-        found = copy.copy(self)
-        found._coming, found._open = [own.copy() for own in self._coming], self._open.copy()
-        return found
+        twin = copy.copy(self)
+        twin._coming, twin._open = [occupations.copy() for occupations in self._coming], self._open.copy()
+        return twin
 
     def __bool__(self) -> bool:
         """Tell whether any robot needs a resource, now or later."""

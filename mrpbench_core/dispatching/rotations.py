@@ -58,10 +58,10 @@ def cycles(moves: Moves, order: Type2Edges, chosen: Bool | None = None) -> list[
 
 def cycle_of_moves(moves: Moves, order: Type2Edges) -> Int:
     """The first move i8[m] of the group of `cycles` that each move is part of, -1 for the others."""
-    found: Int = np.full(len(moves.robot), -1)
+    cycle: Int = np.full(len(moves.robot), -1)
     for group in cycles(moves, order):
-        found[list(group)] = group[0]
-    return found
+        cycle[list(group)] = group[0]
+    return cycle
 
 
 def _suspects(moves: Moves, order: Type2Edges, along: Int) -> tuple[Int, Int]:
@@ -78,15 +78,15 @@ def _suspects(moves: Moves, order: Type2Edges, along: Int) -> tuple[Int, Int]:
     low, high = low[opens], high[closes]
     span = np.searchsorted(low, moves.enter, side="right") - 1
     span = np.where((span >= 0) & (moves.enter <= np.append(high, -1)[span]), span, -1)
-    kept = (span[before] >= 0) & (span[before] == span[after])
-    before, after = before[kept], after[kept]
+    inside = (span[before] >= 0) & (span[before] == span[after])
+    before, after = before[inside], after[inside]
     while len(before):  # leave out arcs that begin where none ends, or end where none begins
         entered, left = np.zeros(len(moves.robot), bool), np.zeros(len(moves.robot), bool)
         entered[after], left[before] = True, True
-        kept = entered[before] & left[after]
-        if kept.all():
+        inside = entered[before] & left[after]
+        if inside.all():
             break
-        before, after = before[kept], after[kept]
+        before, after = before[inside], after[inside]
     return before, after
 
 

@@ -76,9 +76,9 @@ class SpeedProfiles:
 
     def of(self, graph: DependencyGraph) -> "SpeedProfiles":
         """The same for a copy of the graph."""
-        found = copy.copy(self)
-        found._graph = graph
-        return found
+        twin = copy.copy(self)
+        twin._graph = graph
+        return twin
 
     def speed(self, counts: Int, position: Float) -> Float:
         """The speed f8[n] m/s that each robot should not exceed now, inf = any.
@@ -170,8 +170,8 @@ def latest_arrivals(network: Network, late: Float) -> Float:
     bound = moves[network.after] + starts[network.after] - starts[network.before] - network.lag
     rows, columns = np.divmod(network.before, max(1, network.duration.shape[1]))
     np.minimum.at(latest, (rows, columns + 1), bound)
-    found: Float = np.minimum.accumulate(latest[:, ::-1], axis=1)[:, ::-1]
-    return found
+    arrivals: Float = np.minimum.accumulate(latest[:, ::-1], axis=1)[:, ::-1]
+    return arrivals
 
 
 def first_slope(distance: Float, late: Float, latest: Float) -> Float:

@@ -49,7 +49,7 @@ class Results:
         self._only = None if only is None else frozenset(only)
         self._warn = warn
         self._damaged: list[InputError] = []
-        self._found: RecordIndex | None = None
+        self._records: RecordIndex | None = None
 
     def scan(self, visit: Callable[[dict[str, Any]], object] | None = None) -> bool:
         """Find all records, and call `visit` with each one.
@@ -57,17 +57,17 @@ class Results:
         Returns:
             Whether the records that were visited are those of this object: each run once. If not, iterate.
         """
-        if self._found is not None:
+        if self._records is not None:
             return visit is None
-        self._found, once = RecordIndex(), True
+        self._records, once = RecordIndex(), True
         for shard in self.folder.shards():
             for offset, record in read_shard(shard, self._damaged):
                 run_id, attempt = record["run_id"], record.get("attempt", 1)
-                if (self._only is not None and run_id not in self._only) or self._found.attempt(run_id) >= attempt:
+                if (self._only is not None and run_id not in self._only) or self._records.attempt(run_id) >= attempt:
                     continue
                 code = origin(record.get("provenance") or {})
                 entry = Entry(attempt, record["status"], code, shard, offset, names_files(record))
-                once = self._found.put(run_id, entry) and once
+                once = self._records.put(run_id, entry) and once
                 if visit is not None:
                     visit(record)
         for error in self._damaged if self._warn else ():
@@ -92,8 +92,8 @@ class Results:
     @property
     def _index(self) -> RecordIndex:
         self.scan()
-        assert self._found is not None
-        return self._found
+        assert self._records is not None
+        return self._records
 
     def __len__(self) -> int:
         return len(self._index.rows)

@@ -20,7 +20,7 @@ from mrpbench_core.store.results import Results
 SHORT = 12
 """Printed characters of a run id; commands accept any unique prefix."""
 REFRESH_S = 0.1
-TOLD_S = 60.0
+PRINTED_S = 60.0
 """Seconds between two lines on how long a study has taken, where there is no live line."""
 GOING_S = 0.5
 """Seconds between two looks at how far a run is."""
@@ -37,7 +37,7 @@ class Printed(StudyProgress):
         self._total = 0
         self._going: dict[str, StudyRun] = {}
         self._counts: Counter[str] = Counter()
-        self._began = self._drawn = self._told = time.monotonic()
+        self._began = self._drawn = self._printed = time.monotonic()
         self._folder: ResultsFolder | None = None
         self._warned = False
 
@@ -46,7 +46,7 @@ class Printed(StudyProgress):
         for error in results.damaged:
             sys.stderr.write(f"{error}\n")
         self._total, self._counts, self._folder = len(selection.todo), Counter(), results.folder
-        self._began = self._told = time.monotonic()
+        self._began = self._printed = time.monotonic()
         self._warned = False
         recorded = sum(run_id in results for run_id in selection.chosen)
         chosen = counted(len(selection.chosen), "run")
@@ -104,8 +104,8 @@ class Printed(StudyProgress):
             axes = " ".join(f"{key}={word(value)}" for key, value in point.axes.items())
             line = " ".join(filter(None, (done, point.run_id[:SHORT], status, axes)))
             self._say(f"{line}: {message}" if message else line)
-        if not self._live and (now := time.monotonic()) - self._told >= TOLD_S:
-            self._told = now
+        if not self._live and (now := time.monotonic()) - self._printed >= PRINTED_S:
+            self._printed = now
             self._say(f"{self._counts.total()} of {self._total} runs after {self._clocks(now)}")
         self._draw()
 

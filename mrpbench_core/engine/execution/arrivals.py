@@ -46,7 +46,7 @@ class Arrivals:
             cut: i4[n] segments that they leave out.
             leads: bool[n]: the route ends where its robot arrives.
         """
-        self._seen: Int16 | None = None
+        self._level_of: Int16 | None = None
         """The levels in the control period before; robots `_elsewhere` i8[k] were not on the level of their goal."""
         self._elsewhere: Int = np.zeros(0, np.int64)
         self._reached: Int32 | None = None
@@ -76,8 +76,8 @@ class Arrivals:
         self._rests_since[~resting] = np.inf
         offset = state.pose[:, :2] - self._goal
         self.away = np.hypot(offset[:, 0], offset[:, 1])
-        if state.level is not self._seen:
-            self._seen, self._elsewhere = state.level, np.flatnonzero(state.level != self._level)
+        if state.level is not self._level_of:
+            self._level_of, self._elsewhere = state.level, np.flatnonzero(state.level != self._level)
         self.away[self._elsewhere] = np.inf
         near = self.away <= self._tolerance
         self.claimed = finished & (motion.mode == Mode.WAITING)

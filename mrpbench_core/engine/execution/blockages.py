@@ -27,20 +27,20 @@ class Blockages(CrowdSession):
         """The discs; one whose fault is not in force is absent."""
         return self._movers
 
-    def step(self, dt: float, seen: CrowdView) -> Movers:
+    def step(self, dt: float, view: CrowdView) -> Movers:
         """Go to the end of the control period."""
         self._now += dt
         level = self._movers.level.copy()
         for index, event in enumerate(self._events):
             if not event.begin <= self._now + 1e-9 < event.end:
                 level[index] = -1
-            elif level[index] < 0 and self._is_free(event, seen):
+            elif level[index] < 0 and self._is_free(event, view):
                 level[index] = event.level
         self._movers = Movers(pose=self._movers.pose, velocity=self._movers.velocity, level=level)
         return self._movers
 
-    def _is_free(self, event: FaultEvent, seen: CrowdView) -> bool:
-        bodies = ((seen.state, self._reach), (seen.others, seen.radius))
+    def _is_free(self, event: FaultEvent, view: CrowdView) -> bool:
+        bodies = ((view.state, self._reach), (view.others, view.radius))
         return not any(_overlaps(event, one.pose, one.level, radius) for one, radius in bodies)
 
 

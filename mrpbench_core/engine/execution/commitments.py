@@ -25,21 +25,21 @@ def commitments(problem: Problem, plan: Plan, released: Int32, reached: Int32, r
         ready: i8[n] ticks at which each robot comes to the end of the first segment not reached.
         due: tick at which the new plan takes effect.
     """
-    kept = Paths.of(plan.paths).part(np.zeros_like(released), released)
-    leave = kept.leave.copy()
-    least, moves = np.zeros_like(leave), kept.edge >= 0
-    least[moves] = problem.roadmap.duration[problem.profile[kept.robot[moves]], kept.edge[moves]]
+    released_paths = Paths.of(plan.paths).part(np.zeros_like(released), released)
+    leave = released_paths.leave.copy()
+    least, moves = np.zeros_like(leave), released_paths.edge >= 0
+    least[moves] = problem.roadmap.duration[problem.profile[released_paths.robot[moves]], released_paths.edge[moves]]
     for later in range(int((released - reached).max(initial=0))):
         robots = np.flatnonzero(reached + later < released)
-        row = kept.first[robots] + reached[robots] + later
-        enter = np.where(row > kept.first[robots], leave[row - 1], kept.enter[row])
+        row = released_paths.first[robots] + reached[robots] + later
+        enter = np.where(row > released_paths.first[robots], leave[row - 1], released_paths.enter[row])
         soonest = ready[robots] if later == 0 else 0
         leave[row] = np.maximum(np.maximum(leave[row], soonest), enter + least[row])
-    follows = np.flatnonzero(kept.segment)
-    enter = kept.enter.copy()
+    follows = np.flatnonzero(released_paths.segment)
+    enter = released_paths.enter.copy()
     enter[follows] = leave[follows - 1]
-    ends = np.where(kept.size > 0, np.append(leave, 0)[kept.first[1:] - 1], problem.begins)
-    return attrs.evolve(kept, enter=enter, leave=leave).then(waits(ends, due))
+    ends = np.where(released_paths.size > 0, np.append(leave, 0)[released_paths.first[1:] - 1], problem.begins)
+    return attrs.evolve(released_paths, enter=enter, leave=leave).then(waits(ends, due))
 
 
 def not_ahead(problem: Problem, plan: Plan, reached: Int32, now: int) -> tuple[Problem, Plan]:

@@ -72,8 +72,8 @@ class Crowds:
     def _start(self, crowds: Sequence[Crowd], world: World, fleet: Fleet, seeds: Seeds, state: State) -> None:
         """Start the sessions in turn; each sees the robots and the members of those before."""
         for index, crowd in enumerate(crowds):
-            seen = CrowdView(state=state, others=self.movers, radius=self._radius)
-            self._add(crowd.start(world, fleet, seeds.seed_of(f"crowd {index}"), seen))
+            view = CrowdView(state=state, others=self.movers, radius=self._radius)
+            self._add(crowd.start(world, fleet, seeds.seed_of(f"crowd {index}"), view))
 
     def _add(self, session: CrowdSession) -> None:
         if not isinstance(session, CrowdSession):
@@ -99,8 +99,8 @@ class Crowds:
             before = self.movers
             rest = np.r_[0:first, last : len(self.members)]
             others = Movers(pose=before.pose[rest], velocity=before.velocity[rest], level=before.level[rest])
-            seen = CrowdView(state=state, others=others, radius=self._radius[rest])
-            parts[index] = self._sessions[index].step(self._period, seen)
+            view = CrowdView(state=state, others=others, radius=self._radius[rest])
+            parts[index] = self._sessions[index].step(self._period, view)
             self.movers = self._joined(parts)
         if (_arrivals(self.movers) < _arrivals(begin)).any():
             _refuse("fewer goals that a member has reached than before")
@@ -134,15 +134,15 @@ class Crowds:
         movers = self.movers
         if not self.members:
             return inputs
-        bodies, seen = np.hstack([movers.pose[:, :2], movers.velocity]), self._gait.seen(movers, self._period)
+        bodies, legs = np.hstack([movers.pose[:, :2], movers.velocity]), self._gait.seen(movers, self._period)
         level = movers.level.copy()
         level[: self._unmet] = -1
         absent = level < 0
-        bodies[absent, :2], seen[absent, :4] = np.inf, np.inf
-        return attrs.evolve(inputs, movers=bodies, mover_level=level, seen=seen)
+        bodies[absent, :2], legs[absent, :4] = np.inf, np.inf
+        return attrs.evolve(inputs, movers=bodies, mover_level=level, seen=legs)
 
-    def _joined(self, given: Sequence[Movers]) -> Movers:
-        for part, (first, last) in zip(given, pairwise(self._first), strict=True):
+    def _joined(self, movers_of_parts: Sequence[Movers]) -> Movers:
+        for part, (first, last) in zip(movers_of_parts, pairwise(self._first), strict=True):
             size = int(last - first)
             if not isinstance(part, Movers):
                 _refuse(f"{type(part).__name__} instead of Movers")
@@ -154,13 +154,13 @@ class Crowds:
                 _refuse("arrivals that are not one number from -1 on for each mover")
             if size and not (part.level.min() >= -1 and part.level.max() < self._levels):
                 _refuse("a level that the world does not have")
-        if not given:
+        if not movers_of_parts:
             return Movers(pose=np.empty((0, 3)), velocity=np.empty((0, 2)), level=np.empty(0, np.int16))
         return Movers(
-            pose=np.concatenate([part.pose for part in given]),
-            velocity=np.concatenate([part.velocity for part in given]),
-            level=np.concatenate([part.level for part in given]),
-            arrivals=np.concatenate([_arrivals(part) for part in given]),
+            pose=np.concatenate([part.pose for part in movers_of_parts]),
+            velocity=np.concatenate([part.velocity for part in movers_of_parts]),
+            level=np.concatenate([part.level for part in movers_of_parts]),
+            arrivals=np.concatenate([_arrivals(part) for part in movers_of_parts]),
         )
 
 

@@ -47,16 +47,16 @@ class DrawnDelays:
     def begun(self, now: float) -> list[tuple[int, int, int]]:
         """The stops that began since the last call, as (tick, robot, tick of the end), sorted; times increase."""
         tick = math.floor(now / self.settings.tick + 1e-9)
-        found: list[tuple[int, int, int]] = []
+        stops: list[tuple[int, int, int]] = []
         while self._next <= tick:
             robots = np.flatnonzero(self._begin <= tick)
             begin, end = self._begin[robots], self._end[robots]
-            found += zip(begin.tolist(), robots.tolist(), end.tolist(), strict=True)
+            stops += zip(begin.tolist(), robots.tolist(), end.tolist(), strict=True)
             self._until[robots] = end
             self._draw(robots)
             self._next = int(self._begin.min())
         self._tick = tick
-        return sorted(found)
+        return sorted(stops)
 
     def forget(self, robots: Int) -> None:
         """Draw no further stops of `robots` i8[j]."""
@@ -80,7 +80,9 @@ class DrawnDelays:
             return np.ones(len(segment))
         if (missing := int(segment.max(initial=0)) + 1 - self._factor.shape[1]) > 0:
             sigma, missing = self.settings.speed, max(missing, _AT_ONCE)
-            normal = np.reshape([own.standard_normal(missing) for own in self._speeds], (len(self._speeds), missing))
+            normal = np.reshape(
+                [stream.standard_normal(missing) for stream in self._speeds], (len(self._speeds), missing)
+            )
             self._factor = np.hstack([self._factor, np.exp(sigma * normal - sigma**2 / 2)])
         factor: Float = self._factor[robot, segment]
         return factor

@@ -51,10 +51,10 @@ class Destinations:
 
 def heads(problem: Problem, moves: Moves, released: Int32) -> Int:
     """Return the vertex i8[n] at the end of what is `released` i4[n] of each path, given the `moves` of the plan."""
-    kept = moves.segment < released[moves.robot]
-    found = problem.start.astype(np.int64)
-    found[moves.robot[kept]] = moves.head[kept]  # of equal robots the last one counts
-    return found
+    under_way = moves.segment < released[moves.robot]
+    vertices = problem.start.astype(np.int64)
+    vertices[moves.robot[under_way]] = moves.head[under_way]  # of equal robots the last one counts
+    return vertices
 
 
 class Places:
@@ -139,8 +139,8 @@ class Places:
 
         Whatever it chooses for some robots, each other robot still has its own place.
         """
-        own = taken.vertex[errand.robot]
-        return tuple(it for it in errand.yaws if it == own or taken.leaves(errand.robot, it))
+        place = taken.vertex[errand.robot]
+        return tuple(it for it in errand.yaws if it == place or taken.leaves(errand.robot, it))
 
     def _room(self, robot: int, head: int, taken: RestingPlaces, attempt: int) -> GoalSet:
         """Where a robot without an errand may stand."""

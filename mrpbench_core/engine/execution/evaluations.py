@@ -51,42 +51,42 @@ class Evaluations:
                     f"recording.trajectories.robots: there is no robot {robot}", hint=f"the last one is {robots - 1}"
                 )
         self._robots, self._every = frozenset(settings.robots), settings.every
-        self._found: list[RecordedEvaluation] = []
+        self._evaluations: list[RecordedEvaluation] = []
 
     def take(self) -> list[RecordedEvaluation]:
         """Return what was weighed, once."""
-        found, self._found = self._found, []
-        return found
+        evaluations, self._evaluations = self._evaluations, []
+        return evaluations
 
-    def collect(self, session: FleetControllerSession, seen: Observations, twist: Float, period: float) -> None:
+    def collect(self, session: FleetControllerSession, observations: Observations, twist: Float, period: float) -> None:
         """Ask for the evaluations that are due.
 
         Raises:
             BrokenContractError: an evaluation is not what its class says.
         """
-        if round(seen.now / period) % self._every:
+        if round(observations.now / period) % self._every:
             return
-        for row, robot in enumerate(seen.robot.tolist()):
+        for row, robot in enumerate(observations.robot.tolist()):
             if robot not in self._robots:
                 continue
-            found: Any = session.evaluation(robot)
-            if found is not None and (fault := _fault(found)):
+            evaluation: Any = session.evaluation(robot)
+            if evaluation is not None and (fault := _fault(evaluation)):
                 raise BrokenContractError(f"the evaluation of robot {robot}: {fault}")
-            if not np.isnan(twist[row]).any() and (found is None or found.chosen is None):
-                arc = _arc(seen.pose[row], twist[row])
-                found = Evaluation(pose=arc[None][:0], cost=np.empty(0)) if found is None else found
-                found = attrs.evolve(found, chosen=arc)
-            if found is not None:
-                self._found.append(_thinned(robot, found))
+            if not np.isnan(twist[row]).any() and (evaluation is None or evaluation.chosen is None):
+                arc = _arc(observations.pose[row], twist[row])
+                evaluation = Evaluation(pose=arc[None][:0], cost=np.empty(0)) if evaluation is None else evaluation
+                evaluation = attrs.evolve(evaluation, chosen=arc)
+            if evaluation is not None:
+                self._evaluations.append(_thinned(robot, evaluation))
 
 
-def _fault(found: Any) -> str:
+def _fault(evaluation: Any) -> str:
     """What is wrong with an evaluation, or an empty text."""
-    if not isinstance(found, Evaluation):
-        return f"is {found!r:.60}"
-    pose: Any = found.pose
-    cost: Any = found.cost
-    chosen: Any = found.chosen
+    if not isinstance(evaluation, Evaluation):
+        return f"is {evaluation!r:.60}"
+    pose: Any = evaluation.pose
+    cost: Any = evaluation.cost
+    chosen: Any = evaluation.chosen
     if not isinstance(pose, np.ndarray) or pose.ndim != 3 or pose.shape[2] != 3 or (len(pose) and not pose.shape[1]):
         return "`pose` is not f8[m,p,3]"
     if (
@@ -101,7 +101,7 @@ def _fault(found: Any) -> str:
         return "`chosen` is not f8[q,3]"
     if not np.isfinite(pose).all() or (chosen is not None and not np.isfinite(chosen).all()):
         return "a pose is not finite"
-    if not np.isfinite(list(found.scores.values())).all():
+    if not np.isfinite(list(evaluation.scores.values())).all():
         return "a score is not finite"
     return ""
 
@@ -120,17 +120,19 @@ def _arc(pose: Float, twist: Float) -> Float:
     return np.column_stack([x, y, yaw])
 
 
-def _thinned(robot: int, found: Evaluation) -> RecordedEvaluation:
-    count = len(found.pose)
+def _thinned(robot: int, evaluation: Evaluation) -> RecordedEvaluation:
+    count = len(evaluation.pose)
     samples = np.unique(np.linspace(0, count - 1, min(count, SAMPLES)).round().astype(int))
-    pose = found.pose[samples][:, _spread(found.pose.shape[1])] if count else np.empty((0, POSES, 3))
-    cost = found.cost[samples]
-    if found.chosen is not None:
-        pose = np.concatenate([found.chosen[None, _spread(len(found.chosen))], pose])
-        cost = np.append(sum(found.scores.values()) if found.scores else np.nan, cost)
+    pose = evaluation.pose[samples][:, _spread(evaluation.pose.shape[1])] if count else np.empty((0, POSES, 3))
+    cost = evaluation.cost[samples]
+    if evaluation.chosen is not None:
+        pose = np.concatenate([evaluation.chosen[None, _spread(len(evaluation.chosen))], pose])
+        cost = np.append(sum(evaluation.scores.values()) if evaluation.scores else np.nan, cost)
     chosen = np.zeros(len(pose), bool)
-    chosen[:1] = found.chosen is not None
-    return RecordedEvaluation(robot=robot, pose=pose.astype("f4"), cost=cost, chosen=chosen, scores={**found.scores})
+    chosen[:1] = evaluation.chosen is not None
+    return RecordedEvaluation(
+        robot=robot, pose=pose.astype("f4"), cost=cost, chosen=chosen, scores={**evaluation.scores}
+    )
 
 
 def _spread(count: int) -> np.ndarray:

@@ -57,11 +57,11 @@ class FailureReasons:
     def reasons(self) -> dict[int, str]:
         """Return the reason for each robot that did not arrive: its own, or the robot for which it waits."""
         missing = np.flatnonzero(~self.arrived).tolist()
-        own = {robot: text for robot in range(len(self.names)) if (text := self._own(robot))}
-        waits = {robot: self._waits_for(robot) for robot in missing if robot not in own}
-        return {robot: own.get(robot) or self._chain(robot, waits, own) for robot in missing}
+        direct = {robot: text for robot in range(len(self.names)) if (text := self._direct(robot))}
+        waits = {robot: self._waits_for(robot) for robot in missing if robot not in direct}
+        return {robot: direct.get(robot) or self._chain(robot, waits, direct) for robot in missing}
 
-    def _own(self, robot: int) -> str:
+    def _direct(self, robot: int) -> str:
         """Why a robot does not go on, whatever the others do; "" = nothing keeps it."""
         if fault := self.faults.of_robot(robot):
             for_good = " for good" if math.isinf(fault.end) else ""
@@ -98,17 +98,17 @@ class FailureReasons:
         x, y = self.pose[robot, :2]
         return f"({x:.1f}, {y:.1f})"
 
-    def _chain(self, robot: int, waits: Mapping[int, list[int]], own: Mapping[int, str]) -> str:
+    def _chain(self, robot: int, waits: Mapping[int, list[int]], direct: Mapping[int, str]) -> str:
         """The robot for which one waits, and the one at the end of the chain; a breadth-first search."""
         names, came_from = self.names, {robot: robot}
         queue = [robot]
         for here in queue:
-            if here in own:
+            if here in direct:
                 first = here
                 while came_from[first] != robot:
                     first = came_from[first]
                 through = "" if first == here else f"{names[first]}, and so for "
-                return f"waits for {through}{names[here]}, which {own[here]}"
+                return f"waits for {through}{names[here]}, which {direct[here]}"
             for other in waits.get(here, []):
                 if other not in came_from:
                     came_from[other] = here
@@ -124,7 +124,7 @@ class FailureReasons:
 
     def _waits_for(self, robot: int) -> list[int]:
         """The robots that may keep one from going on: in its way, in its door or lift, or due to pass before it."""
-        found = [
+        others = [
             holder
             for other, name in self.orders.requests
             if other == robot and (robot, name) not in self.granted
@@ -133,17 +133,17 @@ class FailureReasons:
         if (ends := self._next_move(robot)) is not None:
             gap = point_segment_distance(self.pose[:, :2], *ends)
             near = gap < self.problem.radius + self.problem.radius[robot]
-            found += np.flatnonzero(near)[np.argsort(gap[near], kind="stable")].tolist()
+            others += np.flatnonzero(near)[np.argsort(gap[near], kind="stable")].tolist()
         awaited = self.dispatcher_waits_for(robot)
-        found += self._due_before(robot) if awaited is None else awaited
-        return [other for other in dict.fromkeys(found) if other != robot]
+        others += self._due_before(robot) if awaited is None else awaited
+        return [other for other in dict.fromkeys(others) if other != robot]
 
     def _due_before(self, robot: int) -> list[int]:
         """The robots that pass before a robot in the plan, and have not passed."""
         move = self.dependencies.next_move(robot, int(self.orders.released[robot]))
         if move is None:
             return []
-        known = self.faults.told or self.motion
+        known = self.faults.last_view or self.motion
         return [
             other
             for other, needed, reached in self.dependencies.of(move)

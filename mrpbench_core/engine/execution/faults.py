@@ -74,7 +74,7 @@ def draw_faults(
     """
     if not settings:
         return ()
-    found: list[FaultEvent] = []
+    events: list[FaultEvent] = []
     for number, entry in enumerate(settings.events):
         count = robots if entry.kind in OF_ROBOTS else len(facilities) if entry.kind == "out_of_order" else 1
         where = f"faults.events.{number}"
@@ -87,8 +87,8 @@ def draw_faults(
         for index in range(count) if subject is None else (subject,):
             random = seeds.stream(f"faults.{number}", index)
             for begin, end in _times(entry, limit_s, random):
-                found.append(_event(entry, index, begin, end, facilities, roadmap, random))
-    return tuple(sorted(found, key=lambda event: (event.begin, event.robot, event.facility)))
+                events.append(_event(entry, index, begin, end, facilities, roadmap, random))
+    return tuple(sorted(events, key=lambda event: (event.begin, event.robot, event.facility)))
 
 
 def _subject(entry: Fault, count: int, facilities: Sequence[str], where: str) -> int | None:
@@ -151,7 +151,7 @@ class FaultState:
         self._robots = robots
         self._changes = sorted({time for event in events for time in (event.begin, event.end)})
         self._next = 0
-        self.told: FleetView | None = None
+        self.last_view: FleetView | None = None
         """What the dispatcher was told last."""
         self._ordered: Int32 = np.zeros(robots, np.int32)
         self._set(())
@@ -167,11 +167,11 @@ class FaultState:
         while self._next < len(self._changes) and self._changes[self._next] <= now + 1e-9:
             self._next += 1
         before = self._changes[self._next - 1]
-        found = [(e.begin, "fault", e, e.detail) for e in self.events if since <= e.begin <= before]
-        found += [(e.end, "fault_over", e, e.detail) for e in self.events if since <= e.end <= before]
+        entries = [(e.begin, "fault", e, e.detail) for e in self.events if since <= e.begin <= before]
+        entries += [(e.end, "fault_over", e, e.detail) for e in self.events if since <= e.end <= before]
         self._set(tuple(event for event in self.events if event.begin <= before < event.end))
-        found.sort(key=lambda entry: entry[0])
-        return tuple(Event(stamp=at, kind=kind, robot=event.robot, detail=text) for at, kind, event, text in found)
+        entries.sort(key=lambda entry: entry[0])
+        return tuple(Event(stamp=at, kind=kind, robot=event.robot, detail=text) for at, kind, event, text in entries)
 
     def _set(self, active: tuple[FaultEvent, ...]) -> None:
         self.active = active
@@ -220,15 +220,17 @@ class FaultState:
         """The scans of the lidars that work."""
         if not (self.active and self._blind.any()):
             return tuple(batches)
-        kept = ((batch, ~self._blind[np.asarray(batch.robot)]) for batch in batches)
-        return tuple(attrs.evolve(b, robot=b.robot[works], ranges=b.ranges[works]) for b, works in kept if works.any())
+        works_of_batch = ((batch, ~self._blind[np.asarray(batch.robot)]) for batch in batches)
+        return tuple(
+            attrs.evolve(b, robot=b.robot[works], ranges=b.ranges[works]) for b, works in works_of_batch if works.any()
+        )
 
     def heard(self, view: FleetView) -> FleetView:
         """What the dispatcher is told: of silent robots what it was told last."""
-        last, self.told = self.told, view
+        last, self.last_view = self.last_view, view
         if last is not None and self.active and self.silent.any():
             silent = self.silent
-            self.told = attrs.evolve(
+            self.last_view = attrs.evolve(
                 view,
                 reached=np.where(silent, last.reached, view.reached),
                 cleared=np.where(silent, last.cleared, view.cleared),
@@ -236,14 +238,14 @@ class FaultState:
                 level=np.where(silent, last.level, view.level),
                 mode=np.where(silent, last.mode, view.mode),
             )
-        return self.told
+        return self.last_view
 
     def cut(self, cut: Int32) -> None:
         """Note that a new plan leaves out the first `cut` i4[n] segments of each path."""
         self._ordered = self._ordered - cut
-        if self.told is not None:
-            reached, cleared = self.told.reached - cut, np.maximum(self.told.cleared - cut, 0)
-            self.told = attrs.evolve(self.told, reached=reached, cleared=cleared)
+        if self.last_view is not None:
+            reached, cleared = self.last_view.reached - cut, np.maximum(self.last_view.cleared - cut, 0)
+            self.last_view = attrs.evolve(self.last_view, reached=reached, cleared=cleared)
 
     def received(self, released: Int32) -> Int32:
         """The released segments i4[n] that robots know of: silent ones those of before."""
@@ -268,5 +270,5 @@ def approaches(place: Float, tail: Float, head: Float, clearance: Float) -> Bool
     f8[k] metres, and closer than they begin: a robot that is close already may leave.
     """
     gap, begin = point_segment_distance(place, tail, head), np.hypot(*(tail - place).T)
-    found: Bool = (gap < clearance - TOLERANCE) & (gap < begin - TOLERANCE)
-    return found
+    approaching: Bool = (gap < clearance - TOLERANCE) & (gap < begin - TOLERANCE)
+    return approaching

@@ -52,13 +52,13 @@ class LoopComponents:
             chosen[field.name] = getattr(config, field.name)
             if chosen[field.name] is None:
                 raise InputError(f"{field.name}: cannot be 'none' when there is a simulator")
-        found = cls(**chosen)
+        inputs = cls(**chosen)
         if granted_localizer(config) is not None and not config.grant_truth:
             raise InputError(
-                f"localizer: {type(found.localizer).__name__} needs the true poses",
+                f"localizer: {type(inputs.localizer).__name__} needs the true poses",
                 hint="`grant_truth: true` grants them",
             )
-        return found
+        return inputs
 
     @property
     def needs_truth(self) -> bool:

@@ -38,11 +38,11 @@ class Disturbances:
         self._ranges, self._dropouts = streams("lidar"), streams("lidar_dropout")
         self._wheels, self._motors = _Normals(streams("odometry")), _Normals(streams("actuation"))
         self._scale = 1 + size.odometry_bias * np.array(
-            [own.standard_normal(2) for own in streams("odometry_bias")]
+            [stream.standard_normal(2) for stream in streams("odometry_bias")]
         ).reshape(-1, 2)
         self._truth = start_poses.copy()
         self._believed = start_poses.copy()
-        self.start_delay: Float = np.array([own.uniform(0, size.start_jitter) for own in streams("start_jitter")])
+        self.start_delay: Float = np.array([stream.uniform(0, size.start_jitter) for stream in streams("start_jitter")])
         """f8[n] simulated seconds."""
 
     def odometry(self, state: State) -> Odometry:
@@ -99,7 +99,7 @@ class _Normals:
     def next(self) -> Float:
         """The next f8[n,2]."""
         if self._used == self._drawn.shape[1]:
-            drawn = [own.standard_normal((_BLOCK, 2)) for own in self._streams]
+            drawn = [stream.standard_normal((_BLOCK, 2)) for stream in self._streams]
             self._drawn, self._used = np.reshape(drawn, (len(drawn), _BLOCK, 2)), 0
         self._used += 1
         return self._drawn[:, self._used - 1]

@@ -16,8 +16,8 @@ from mrpbench_core.model.worlds.world import World
 def observed(controller: Controller, evaluations: Evaluations) -> Controller:
     """Return a controller with the same commands, whose evaluations are collected."""
     kind = type(type(controller).__name__, (_Observed,), {})  # its name occurs in messages
-    found: Controller = kind(controller=controller, evaluations=evaluations)
-    return found
+    wrapper: Controller = kind(controller=controller, evaluations=evaluations)
+    return wrapper
 
 
 @attrs.frozen(kw_only=True, slots=False)

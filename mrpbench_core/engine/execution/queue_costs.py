@@ -39,7 +39,10 @@ class QueueCosts:
         """For each motion profile: equal for vertices between which it can drive both ways."""
         speeds = [robot.max_speed for robot in fleet.robots]
         self._speed = [
-            min((speed for speed, own in zip(speeds, profile, strict=True) if own == number), default=1.0)
+            min(
+                (speed for speed, number_of_robot in zip(speeds, profile, strict=True) if number_of_robot == number),
+                default=1.0,
+            )
             for number in range(len(models))
         ]
         self._to, self.along = lru_cache(TABLES)(self._search), lru_cache(WAYS)(self._along)
@@ -47,19 +50,19 @@ class QueueCosts:
     def joined(self, profile: int, start: Int, goal: Int) -> Bool:
         """Tell, bool[k,l], where there are ways from vertices `start` i8[k] to `goal` i8[l] and back."""
         label = self.labels[profile]
-        found: Bool = label[start][:, None] == label[goal][None, :]
-        return found
+        reachable: Bool = label[start][:, None] == label[goal][None, :]
+        return reachable
 
     def seconds(self, profile: int, start: Int, goal: Int) -> Float:
         """Seconds f8[k,l] from vertices `start` i8[k] to `goal` i8[l]; inf where there is no way back."""
         able = self.joined(profile, start, goal)
         if self._kind == "roadmap":
-            found = np.array([self._to(profile, int(end))[start] for end in goal]).reshape(len(goal), len(start)).T
+            seconds = np.array([self._to(profile, int(end))[start] for end in goal]).reshape(len(goal), len(start)).T
         else:
             span = np.abs(self._roadmap.position[goal][None] - self._roadmap.position[start][:, None])
             metres = span.sum(-1) if self._kind == "manhattan" else np.hypot(span[..., 0], span[..., 1])
-            found = metres / self._speed[profile]
-        return np.where(able, found, np.inf)
+            seconds = metres / self._speed[profile]
+        return np.where(able, seconds, np.inf)
 
     def _along(self, profile: int, sets: tuple[GoalSet, ...]) -> Float:
         """Seconds f8[p,q] from each vertex of the first set, through one of each further set, to each of the last."""
@@ -73,7 +76,7 @@ class QueueCosts:
         """
         if len(way) == 1 and len(way[0].yaws) == 1:  # the usual case
             return way
-        found = []
+        errands_in_order = []
         for errand in way:
             if len(errand.yaws) > 1:
                 profile = int(self.profile[errand.robot])
@@ -81,8 +84,8 @@ class QueueCosts:
                 there = sorted((it for it in seconds if seconds[it] < np.inf), key=seconds.__getitem__)
                 errand = errand.at(there or errand.yaws)
             start = next(iter(errand.yaws))
-            found.append(errand)
-        return found
+            errands_in_order.append(errand)
+        return errands_in_order
 
     def _search(self, profile: int, goal: int) -> Float:
         """Seconds f8[V] from every vertex to `goal`."""

@@ -47,7 +47,9 @@ class QueueProblems:
         self._lengths = {
             index: self._lengths.get(index) or self._length(job) for index, job in zip(open_tasks, jobs, strict=True)
         }
-        lengths = np.array([np.concatenate(own) for own in zip(*self._lengths.values(), strict=True)])
+        lengths = np.array(
+            [np.concatenate(lengths_of_task) for lengths_of_task in zip(*self._lengths.values(), strict=True)]
+        )
         first, begin = _flat([job.places[0] for job in jobs])
         begun = [board.begun(robot) for robot in range(len(head))]
         place, free_in = self._free(now, begun, head)
@@ -114,8 +116,8 @@ class QueueProblems:
         """Seconds f8[p,m,m] from the end of each task to the first errand of each."""
         last, end = _flat([job.places[-1] for job in jobs])
         between = np.array([self._costs.seconds(p, last, first) for p in range(len(self._costs.labels))])
-        found: Float = np.minimum.reduceat(np.minimum.reduceat(between, end, axis=1), begin, axis=2)
-        return found
+        least: Float = np.minimum.reduceat(np.minimum.reduceat(between, end, axis=1), begin, axis=2)
+        return least
 
     def _length(self, job: Job) -> tuple[Float, ...]:
         """For each motion profile the seconds f8[k] from each place of the first errand of a task to its end."""

@@ -81,15 +81,15 @@ class Reactions:
         level = roadmap.level[roadmap.edges[:, 0]]
         duration = roadmap.duration.copy()
         for profile in np.unique(problem.profile).tolist():
-            own = float(problem.radius[problem.profile == profile].max())
+            radius = float(problem.radius[problem.profile == profile].max())
             closed = np.zeros(len(roadmap.edges), bool)
             for event in self._faults.blockages:
-                reach = np.full(len(tail), own + event.radius)
+                reach = np.full(len(tail), radius + event.radius)
                 closed |= (level == event.level) & approaches(np.array(event.place), tail, head, reach)
             for robot in np.flatnonzero(held).tolist():
                 vertices = plan.paths[robot].vertices(roadmap, int(problem.start[robot]))
                 here = vertices[int(cleared[robot]) : int(released[robot]) + 1]
-                reach = np.full(len(tail), own + problem.radius[robot])
+                reach = np.full(len(tail), radius + problem.radius[robot])
                 for place in _points(roadmap.position[here]):
                     closed |= (level == roadmap.level[here[-1]]) & approaches(place, tail, head, reach)
             for resource in roadmap.resources:
@@ -159,19 +159,19 @@ def reaches(problem: Problem, robot: int, start: int, goal: GoalSet) -> bool:
 
 def _points(way: Float) -> list[Float]:
     """Points f8[2] along a way f8[k,2], at most `SPACING` apart."""
-    found = [way[0]]
+    points = [way[0]]
     for begin, end in pairwise(way):
         steps = max(1, int(np.ceil(np.hypot(*(end - begin)) / SPACING)))
-        found += [begin + (end - begin) * step / steps for step in range(1, steps + 1)]
-    return found
+        points += [begin + (end - begin) * step / steps for step in range(1, steps + 1)]
+    return points
 
 
 def _inward(roadmap: Roadmap, resource: Resource) -> Bool:
     """The edges bool[E] of a door or lift but for those that lead out of it."""
     inside: Int = np.array(resource.vertices, np.int64)
-    found = np.zeros(len(roadmap.edges), bool)
+    inward = np.zeros(len(roadmap.edges), bool)
     edges = np.array(resource.edges, np.int64)
     leaves = np.isin(roadmap.edges[edges, 0], inside) & ~np.isin(roadmap.edges[edges, 1], inside)
-    found[edges[~leaves]] = True
-    found[list(resource.passage)] = True
-    return found
+    inward[edges[~leaves]] = True
+    inward[list(resource.passage)] = True
+    return inward

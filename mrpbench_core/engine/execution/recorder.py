@@ -190,10 +190,10 @@ class Recorder:
         if len(self._rows.get("scan_time", ())) >= SCANS:
             self.flush()
 
-    def evaluations(self, now: float, found: Sequence[RecordedEvaluation]) -> None:
+    def evaluations(self, now: float, evaluations: Sequence[RecordedEvaluation]) -> None:
         """Record what controllers weighed: one row per trajectory, and one per critic and chosen trajectory."""
         rows = self._rows
-        for each in found:
+        for each in evaluations:
             count = len(each.pose)
             rows["trajectory_time"].append(np.full(count, now))
             rows["trajectory_robot"].append(np.full(count, each.robot, "i4"))
@@ -238,7 +238,7 @@ class Recorder:
             rows["task_errand"].append(event.errand)
 
     def routes(
-        self, now: float, revision: int, routes: Sequence[Route], plan: Plan, kept: Int32, driven: Int32
+        self, now: float, revision: int, routes: Sequence[Route], plan: Plan, recorded: Int32, driven: Int32
     ) -> None:
         """Record a new plan and its routes: one row per waypoint, with the segment that leads there and its limit.
 
@@ -247,13 +247,13 @@ class Recorder:
             revision: its number.
             routes: one per robot.
             plan: the same.
-            kept: i4[n] leading waypoints of each route that are known already, and left out.
+            recorded: i4[n] leading waypoints of each route that are known already, and left out.
             driven: i4[n] segments of each robot that are not part of the plan any more.
         """
         paths, joined = Paths.of(plan.paths), Routes.of(routes)
-        size = joined.size - kept
+        size = joined.size - recorded
         rows = int(size.sum())
-        new = np.arange(len(joined.level)) >= np.repeat(joined.first[:-1] + kept, joined.size)
+        new = np.arange(len(joined.level)) >= np.repeat(joined.first[:-1] + recorded, joined.size)
         speed = np.append(np.inf, joined.speed[:-1])  # of the segment that leads to each waypoint
         speed[joined.first[:-1]] = np.inf
         within = np.arange(rows) - np.repeat(np.cumsum(size) - size, size)
@@ -261,11 +261,11 @@ class Recorder:
             "time": np.full(rows, now),
             "revision": np.full(rows, revision, np.int32),
             "robot": np.repeat(np.arange(len(routes), dtype=np.int32), size),
-            "segment": (within + np.repeat(kept + driven, size)).astype(np.int32),
+            "segment": (within + np.repeat(recorded + driven, size)).astype(np.int32),
             "waypoint": joined.waypoint[new],
             "level": joined.level[new],
             "speed": speed[new],
-            **_segments(paths, kept),
+            **_segments(paths, recorded),
         }.items():
             self._rows[f"route_{name}"].append(values)
         self._waypoints += rows
@@ -280,7 +280,7 @@ class Recorder:
             self._waypoints = self._trajectories = 0
 
 
-def _segments(paths: Paths, kept: Int32) -> dict[str, NDArray[Any]]:
+def _segments(paths: Paths, recorded: Int32) -> dict[str, NDArray[Any]]:
     """The edge that leads to each waypoint and the tick at which its robot comes there, but for the `kept` i4[n] first.
 
     The first waypoint of a route is where the path begins: no edge leads there. Times before tick 0 are recorded as 0.
@@ -291,7 +291,7 @@ def _segments(paths: Paths, kept: Int32) -> dict[str, NDArray[Any]]:
     starts = begin + np.arange(len(paths))
     some = paths.size > 0
     leave[starts[some]] = paths.enter[begin[some]]
-    new = np.arange(len(edge)) - np.repeat(starts + kept, paths.size + 1) >= 0
+    new = np.arange(len(edge)) - np.repeat(starts + recorded, paths.size + 1) >= 0
     return {"edge": edge[new], "leave": np.maximum(leave[new], 0)}
 
 

@@ -152,15 +152,15 @@ class Replanner:
         result, fault, late = self._ask(attrs.evolve(problem, roadmap=roadmap))
         due += late
         self._last, self._not_before = now, due
-        found = None if fault else result.plan
-        leads = np.ones(len(problem), bool) if found is None else leads_to_goals(problem, found)
+        new_plan = None if fault else result.plan
+        leads = np.ones(len(problem), bool) if new_plan is None else leads_to_goals(problem, new_plan)
         router = attrs.evolve(self._router, problem=problem, final_yaw=np.where(leads, to.yaw, np.nan))
-        routes: Sequence[Route] = () if found is None else router(found)
+        routes: Sequence[Route] = () if new_plan is None else router(new_plan)
         self.pending = Revision(
             due=due,
             reason=reason,
             problem=problem,
-            plan=found,
+            plan=new_plan,
             routes=routes,
             fault=fault or "",
             leads=leads,

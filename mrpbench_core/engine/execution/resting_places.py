@@ -52,9 +52,9 @@ class RestingPlaces:
     def __init__(self, near: Neighbourhoods) -> None:
         self._near, self._problem = near, near.problem
         self._radii, self._size = np.unique(self._problem.radius, return_inverse=True)
-        self._seen = np.zeros(len(self._radii), np.int64)
+        self._applied = np.zeros(len(self._radii), np.int64)
         self._free = np.ones((len(self._radii), len(self._problem.roadmap.position)), bool)
-        """For robots of each radius, the vertices that the first `_seen` robots leave to them."""
+        """For robots of each radius, the vertices that the first `_applied` robots leave to them."""
         self.vertex: dict[int, int] = {}
         """Of each robot, in the order in which they took them."""
         self._at: dict[int, list[int]] = {}
@@ -82,11 +82,11 @@ class RestingPlaces:
         """The vertices bool[V] at which there is room for one more robot."""
         roadmap, size = self._problem.roadmap, int(self._size[robot])
         free, others = self._free[size], [*self.vertex.items()]
-        for other, vertex in others[self._seen[size] :]:
+        for other, vertex in others[self._applied[size] :]:
             gap = np.hypot(*(roadmap.position - roadmap.position[vertex]).T)
             beside = gap < self._near.radius[other] + self._radii[size] - TOLERANCE
             free &= ~(beside & (roadmap.level == roadmap.level[vertex]))
             free[vertex] = False
-        self._seen[size] = len(others)
+        self._applied[size] = len(others)
         left: Bool = free.copy()
         return left

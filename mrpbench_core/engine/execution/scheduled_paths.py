@@ -50,8 +50,8 @@ class ScheduledPaths:
 
     def rows(self, segment: Int) -> Int:
         """The rows i8[n] of the tables for each robot's `segment` i8[n]."""
-        found: Int = self.first + segment
-        return found
+        row: Int = self.first + segment
+        return row
 
     def cleared(self, row: Int, segment: Int, done: Float) -> Int:
         """The number i8[k] of segments that each robot has cleared.
@@ -73,8 +73,8 @@ class ScheduledPaths:
             rows = np.flatnonzero(blocked & (self.level == blockage.level))
             self._blocked[blockage] = np.append(rows, np.iinfo(np.int64).max)
         rows = self._blocked[blockage]
-        found: Int = rows[np.searchsorted(rows, self.rows(segment) + under_way)] - self.first
-        return found
+        segments: Int = rows[np.searchsorted(rows, self.rows(segment) + under_way)] - self.first
+        return segments
 
     def pose(self, segment: Int, done: Float) -> Float:
         """The pose f8[n,3] of each robot that has made `done` f8[n] planned seconds of its `segment`."""

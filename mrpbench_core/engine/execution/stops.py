@@ -37,27 +37,27 @@ def stops(settings: Delays, robots: int, seeds: Seeds, draws: Sequence[int]) -> 
         draws: numbers of the draws, ascending.
     """
     if settings.event_model == "poisson":
-        own = seeds.streams("delays.poisson", 1, draws)
-        return _PoissonStops([_Fleet(settings, robots, random) for random in own], robots)
+        random_streams = seeds.streams("delays.poisson", 1, draws)
+        return _PoissonStops([_Fleet(settings, robots, random) for random in random_streams], robots)
     return _BernoulliStops(settings, seeds.streams("delays.bernoulli", robots, draws))
 
 
 class _BernoulliStops:
     """A robot that does not stop begins to in each tick with probability p, so the ticks until then are geometric."""
 
-    def __init__(self, settings: Delays, own: Sequence[np.random.Generator]) -> None:
-        self._p_delay, self._length, self._own = settings.p_delay, _length(settings), own
-        self._end = [0] * len(own)
+    def __init__(self, settings: Delays, streams: Sequence[np.random.Generator]) -> None:
+        self._p_delay, self._length, self._streams = settings.p_delay, _length(settings), streams
+        self._end = [0] * len(streams)
 
     def following(self, robots: Sequence[int]) -> list[Stop]:
-        p_delay, length, own, end = self._p_delay, self._length, self._own, self._end
-        found = []
+        p_delay, length, streams, end = self._p_delay, self._length, self._streams, self._end
+        stops = []
         for robot in robots:
-            random = own[robot]
+            random = streams[robot]
             begin = min(end[robot] + int(random.geometric(p_delay)) - 1, NEVER)
             end[robot] = begin + length(random)
-            found.append((begin, end[robot]))
-        return found
+            stops.append((begin, end[robot]))
+        return stops
 
 
 class _PoissonStops:
@@ -77,14 +77,14 @@ class _Fleet:
         self._mean, self._random = robots * settings.p_delay, random
         self._length = _length(settings)
         self._end = np.zeros(robots, np.int64)
-        self._found: list[deque[Stop]] = [deque() for _ in range(robots)]
+        self._stops: list[deque[Stop]] = [deque() for _ in range(robots)]
         self._tick = -1
 
     def following(self, robot: int) -> Stop:
-        found = self._found[robot]
-        while not found:
+        stops = self._stops[robot]
+        while not stops:
             self._advance()
-        return found.popleft()
+        return stops.popleft()
 
     def _advance(self) -> None:
         """Go to the next tick in which K > 0. Given that, K is 1 + Poisson(mean - t), t the first event's time."""
@@ -96,7 +96,7 @@ class _Fleet:
         free = np.flatnonzero(self._end <= self._tick)
         for robot in random.choice(free, min(count, len(free)), replace=False).tolist() if len(free) else ():
             self._end[robot] = self._tick + self._length(random)
-            self._found[robot].append((self._tick, int(self._end[robot])))
+            self._stops[robot].append((self._tick, int(self._end[robot])))
 
 
 def _length(settings: Delays) -> Callable[[np.random.Generator], int]:

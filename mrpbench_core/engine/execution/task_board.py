@@ -106,8 +106,8 @@ class TaskBoard:
                 self.changed.add(robot)
         for job in self.jobs.values():
             job.robot = -1
-        for robot, own in enumerate(self.queues):
-            for index in own:
+        for robot, tasks_of_robot in enumerate(self.queues):
+            for index in tasks_of_robot:
                 self.jobs[index].robot = robot
         for index, job in self.jobs.items():
             old = before.get(index, -1)

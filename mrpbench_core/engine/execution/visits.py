@@ -56,9 +56,9 @@ class Visits:
     @property
     def complete(self) -> Bool:
         """bool[n]: only the last goal is left."""
-        found = np.ones(len(self._goals), bool)
-        found[self._unfinished()] = False
-        return found
+        complete = np.ones(len(self._goals), bool)
+        complete[self._unfinished()] = False
+        return complete
 
     @property
     def remaining(self) -> Goals:

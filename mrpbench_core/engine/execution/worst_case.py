@@ -96,9 +96,9 @@ class _Graph:
             if len(np.unique(moves.robot[members])) == len(members) and not order.completed[inside].any():
                 self.group[members] = first
         # A cycle that is not a rotation has no order that can be kept.
-        kept = (cyclic[order.before] < 0) | (cyclic[order.before] != cyclic[order.after])
-        before, after = order.before[kept], order.after[kept]
-        needs = np.where(order.completed[kept], self._duration[before], clearing[before])
+        between = (cyclic[order.before] < 0) | (cyclic[order.before] != cyclic[order.after])
+        before, after = order.before[between], order.after[between]
+        needs = np.where(order.completed[between], self._duration[before], clearing[before])
         arcs = np.concatenate([along, before]), np.concatenate([along + 1, after])
         self._next: dict[int, list[tuple[int, float]]] = defaultdict(list)
         for one, other, weight in zip(
@@ -145,21 +145,21 @@ class _Graph:
         for arcs in list(self._next.values()):
             for other, _ in arcs:
                 waiting[other] += 1
-        found = [node for node, count in waiting.items() if not count]
-        for node in found:
+        order = [node for node, count in waiting.items() if not count]
+        for node in order:
             for other, _ in self._next[node]:
                 waiting[other] -= 1
                 if not waiting[other]:
-                    found.append(other)
-        return found
+                    order.append(other)
+        return order
 
 
 def _durations(problem: Problem, moves: Moves) -> tuple[Float, Float]:
     """Seconds f8[m] that each move takes, and after which its robot has cleared the start; see `ScheduleLoop`."""
     duration: Float = np.zeros(len(moves.robot))
     for robot in range(len(problem)):
-        own = slice(moves.first[robot], moves.first[robot + 1])
-        duration[own] = problem.duration(robot)[moves.edge[own]] * problem.roadmap.tick
+        rows = slice(moves.first[robot], moves.first[robot + 1])
+        duration[rows] = problem.duration(robot)[moves.edge[rows]] * problem.roadmap.tick
     position = problem.roadmap.position
     length = np.hypot(*(position[moves.head] - position[moves.tail]).T)
     reach = problem.radius[moves.robot] + problem.radius.max(initial=0.0)

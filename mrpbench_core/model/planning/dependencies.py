@@ -49,13 +49,13 @@ class Dependencies:
     def of(self, move: int) -> list[Dependency]:
         """Return the dependencies of a move; those of all moves of its rotation if it is part of one."""
         group = self._rotation_of.get(move, (move,))
-        dependencies = [dependency for member in group for dependency in self._own(member, group)]
+        dependencies = [dependency for member in group for dependency in self._direct(member, group)]
         others = [member for member in group if member != move]
         return dependencies + [
             Dependency(int(self.moves.robot[other]), int(self.moves.segment[other]), reached=True) for other in others
         ]
 
-    def _own(self, move: int, group: tuple[int, ...]) -> list[Dependency]:
+    def _direct(self, move: int, group: tuple[int, ...]) -> list[Dependency]:
         rows = slice(self._first[move], self._first[move + 1])
         return [
             Dependency(int(self.moves.robot[before]), int(self.moves.segment[before]) + 1, reached=completed)

@@ -48,19 +48,20 @@ class GlobalPlannerSession(FleetControllerSession):
 
     def command(self, observations: Observations) -> Float:
         """The commands f8[k,2] of all rows, NaN where there is no path, or no command of the other controller."""
-        seen = observations
-        for batch in seen.scans:
-            self._maps.see(batch.stamp, batch.robot, seen.fleet_pose, batch.ranges)
-        goal = seen.points[seen.end - 1]
-        for row, robot in enumerate(seen.robot.tolist()):
+        for batch in observations.scans:
+            self._maps.see(batch.stamp, batch.robot, observations.fleet_pose, batch.ranges)
+        goal = observations.points[observations.end - 1]
+        for row, robot in enumerate(observations.robot.tolist()):
             is_new = bool((goal[row] != self._goal[robot]).any())
-            if is_new or seen.now >= self._due[robot] - 1e-9:
+            if is_new or observations.now >= self._due[robot] - 1e-9:
                 one, tolerance = slice(row, row + 1), self._replanning.tolerance
-                self._path[robot] = self._maps.plan(seen.now, robot, seen.pose[one], goal[one], tolerance)
+                self._path[robot] = self._maps.plan(
+                    observations.now, robot, observations.pose[one], goal[one], tolerance
+                )
                 self._goal[robot] = goal[row]
-                self._due[robot] = seen.now + 1 / self._replanning.frequency
-        planned, rows = self._with_paths(seen)
-        twist = np.full((len(seen.robot), 2), np.nan)
+                self._due[robot] = observations.now + 1 / self._replanning.frequency
+        planned, rows = self._with_paths(observations)
+        twist = np.full((len(observations.robot), 2), np.nan)
         twist[rows] = self._primary.command(planned)
         return twist
 

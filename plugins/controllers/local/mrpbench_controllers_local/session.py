@@ -70,18 +70,17 @@ class LocalSession(FleetControllerSession):
             self._in_python.append(started)
         self._scored = any(self._in_python)
         """Whether any robot has critics in Python."""
-        self._seen: Observations | None = None
+        self._observations: Observations | None = None
         self._row: dict[int, int] = {}
 
     def command(self, observations: Observations) -> Float:
         """The commands f8[k,2] of all rows."""
-        seen = observations
-        for batch in seen.scans:
-            self._fleet.see(batch.stamp, batch.robot, seen.fleet_pose, batch.ranges)
-        self._seen = seen
+        for batch in observations.scans:
+            self._fleet.see(batch.stamp, batch.robot, observations.fleet_pose, batch.ranges)
+        self._observations = observations
         if self._scored:
-            self._row = {robot: row for row, robot in enumerate(seen.robot.tolist())}
-        return self._fleet.command(seen, self._score if self._scored else None)
+            self._row = {robot: row for row, robot in enumerate(observations.robot.tolist())}
+        return self._fleet.command(observations, self._score if self._scored else None)
 
     def clear(self, robot: int) -> None:
         """Forget what one robot's scans have marked."""
@@ -132,9 +131,11 @@ class LocalSession(FleetControllerSession):
 
     def _score(self, robot: int, twist: Float, pose: Float) -> Float:
         """The sum of the scores of the critics in Python, f8[m]."""
-        assert self._seen is not None
+        assert self._observations is not None
         row = self._row[robot]
-        trajectories = Trajectories(twist=twist, pose=pose, path=self._seen.path(row), yaw=float(self._seen.yaw[row]))
+        trajectories = Trajectories(
+            twist=twist, pose=pose, path=self._observations.path(row), yaw=float(self._observations.yaw[row])
+        )
         total = np.zeros(len(twist))
         for name, scale, critic in self._in_python[robot]:
             returned = critic.score(trajectories)

@@ -106,7 +106,14 @@ class _Fleet(FleetControllerSession):
 
     def command(self, observations: Observations) -> Float:
         """Return the commands f8[k,2] of all rows."""
-        seen = observations
         return self._native.command(
-            seen.robot, seen.pose, seen.twist, seen.foot, seen.points, seen.begin, seen.end, seen.yaw, seen.speed
+            observations.robot,
+            observations.pose,
+            observations.twist,
+            observations.foot,
+            observations.points,
+            observations.begin,
+            observations.end,
+            observations.yaw,
+            observations.speed,
         )

@@ -56,28 +56,28 @@ class RotationShimSession(FleetControllerSession):
 
     def command(self, observations: Observations) -> Float:
         """The commands f8[k,2] of all rows, NaN where there is no room to turn, or none of the primary controller."""
-        seen, robot = observations, observations.robot
-        end = seen.points[seen.end - 1]
+        robot = observations.robot
+        end = observations.points[observations.end - 1]
         is_new = (end != self._goal[robot]).any(axis=1)
         self._goal[robot] = end
         angle: Float = np.zeros(len(robot))
         for row in (is_new | self._turns[robot]).nonzero()[0].tolist():
-            angle[row] = self._angle_to_path(seen, row)
+            angle[row] = self._angle_to_path(observations, row)
         threshold = np.where(is_new, self._turning.angular_dist_threshold, self._turning.angular_disengage_threshold)
         turns = (is_new | self._turns[robot]) & (np.abs(angle) > threshold)
         self._turns[robot] = turns
         if self._turning.rotate_to_goal_heading:
-            away = np.hypot(*(end - seen.pose[:, :2]).T)
-            at_end = (away <= seen.tolerance) & ~np.isnan(seen.yaw)
-            angle = np.where(at_end, _wrapped(seen.yaw - seen.pose[:, 2]), angle)
+            away = np.hypot(*(end - observations.pose[:, :2]).T)
+            at_end = (away <= observations.tolerance) & ~np.isnan(observations.yaw)
+            angle = np.where(at_end, _wrapped(observations.yaw - observations.pose[:, 2]), angle)
             turns = turns | at_end
         self._turns_now[robot] = turns
         twist = np.empty((len(robot), 2))
         others = (~turns).nonzero()[0]
-        twist[others] = self._primary.command(_rows(seen, others))
+        twist[others] = self._primary.command(_rows(observations, others))
         self._blocked[robot] = False
         for row in turns.nonzero()[0].tolist():
-            twist[row] = self._turn(seen, row, float(angle[row]))
+            twist[row] = self._turn(observations, row, float(angle[row]))
         self._last[robot] = np.nan_to_num(twist[:, 1])
         return twist
 

@@ -38,7 +38,7 @@ class Goals(ABC):
             np.array([person]) if of < 0 else np.flatnonzero(group == of) for person, of in enumerate(group.tolist())
         ]
 
-    def _own(self, person: int, number: int) -> np.random.Generator:
+    def _stream(self, person: int, number: int) -> np.random.Generator:
         return self._draws(int(self._together[person][0]), number)
 
     @abstractmethod
@@ -86,7 +86,7 @@ class PlaceGoals(Goals):
         for member in self._together[person].tolist():
             self.arrivals[member] += 1
             number = int(self.arrivals[member])
-            self._waits[member] = self._own(member, number).exponential(self._stay) if self._stay else 0.0
+            self._waits[member] = self._stream(member, number).exponential(self._stay) if self._stay else 0.0
             goal = self._following(member, number)
             assert goal is not None
             self.place[member] = goal
@@ -143,7 +143,7 @@ class ActivityGoals(Goals):
         if not ends or not (any(ends) if activity.either else all(ends)) or not activity.following:
             return None
         choices, weights = zip(*activity.following, strict=True)
-        share = self._own(person, int(self._number[person]) + 1).random() * sum(weights)
+        share = self._stream(person, int(self._number[person]) + 1).random() * sum(weights)
         return int(choices[min(int((np.cumsum(weights) <= share).sum()), len(choices) - 1)])
 
     def _begin(self, person: int, number: int) -> None:
@@ -151,7 +151,7 @@ class ActivityGoals(Goals):
         activity = self._activities[number]
         self._activity[person] = number
         self._number[person] += 1
-        _, time, place = self._own(person, int(self._number[person])).random(3).tolist()
+        _, time, place = self._stream(person, int(self._number[person])).random(3).tolist()
         self._left[person] = np.inf
         if activity.time is not None:
             low, high = activity.time

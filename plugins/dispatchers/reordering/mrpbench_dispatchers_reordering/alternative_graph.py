@@ -50,8 +50,8 @@ class AlternativeGraph(NamedTuple):
         arrays = self.arrays
         chosen = np.where(switched[:, None], arrays["switched"], arrays["planned"])
         time = earliest(arrays["first"], arrays["duration"], np.concatenate([arrays["fixed"], chosen]))
-        found: Int = self.moves[np.argsort(time[self.begin], kind="stable")]
-        return found
+        moves: Int = self.moves[np.argsort(time[self.begin], kind="stable")]
+        return moves
 
 
 def sum_of_arrivals(arrays: Mapping[str, Int32], switched: Bool) -> int:
@@ -190,8 +190,8 @@ class _Events:
     def has(self, move: Int) -> Bool:
         """Tell which moves, `NONE` = no move, are in the graph."""
         robot = self._moves.robot[move]
-        found: Bool = (move >= self._present[robot]) & (move < self.last[robot])
-        return found
+        present: Bool = (move >= self._present[robot]) & (move < self.last[robot])
+        return present
 
     def of(self, move: Int, kind: Int) -> Int:
         """The event of each move; the present state if the robot has made the move, its last event if it is beyond."""
@@ -219,16 +219,16 @@ class _Events:
         counts = np.zeros(len(rotation), bool)
         counts[group[inside]] = True
         counts[group[started]] = False
-        kept = counts[group]
-        begins, inside, group = begins[kept], inside[kept], group[kept]
+        rotates = counts[group]
+        begins, inside, group = begins[rotates], inside[rotates], group[rotates]
         arcs = arcs[np.argsort(arcs[:, 1])]
-        found = np.searchsorted(arcs[:, 1], begins), np.searchsorted(arcs[:, 1], begins, side="right")
-        of_group, earlier = expanded(group, arcs[:, 0].astype(np.int64), *found)
+        bounds = np.searchsorted(arcs[:, 1], begins), np.searchsorted(arcs[:, 1], begins, side="right")
+        of_group, earlier = expanded(group, arcs[:, 0].astype(np.int64), *bounds)
         sources, of_group = np.concatenate([begins - inside, earlier]), np.concatenate([group, of_group])
         order = np.argsort(group[inside], kind="stable")
         begins, group = begins[inside][order], group[inside][order]
-        found = np.searchsorted(group, of_group), np.searchsorted(group, of_group, side="right")
-        before, after = expanded(sources, begins, *found)
+        bounds = np.searchsorted(group, of_group), np.searchsorted(group, of_group, side="right")
+        before, after = expanded(sources, begins, *bounds)
         robot_of = np.repeat(np.arange(len(self.first) - 1), np.diff(self.first))
         apart = robot_of[before] != robot_of[after]
         ones = np.ones(int(apart.sum()), np.int64)

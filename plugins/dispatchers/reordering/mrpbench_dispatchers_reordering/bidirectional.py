@@ -33,12 +33,12 @@ def open_groups(graph: DependencyGraph, visits: Visits, pairs: Pairs, limit: int
     ends = np.stack([*planned, *switched])
     rotates = np.append(graph.rotation != NONE, False)  # at NONE
     steady = ((ends != NONE) & ~rotates[ends]).all(axis=0)
-    kept = ~steady & (planned[0] != NONE) & (planned[1] != NONE)
+    in_both = ~steady & (planned[0] != NONE) & (planned[1] != NONE)
     together = np.arange(len(moves.robot) + len(moves.first) - 1)
     together[event] = event[np.array(graph.group, np.int64)]
-    fixed = np.concatenate([arcs(planned[0][kept], planned[1][kept]), arcs(resources.before, resources.after)])
-    found = np.full(len(first), NONE)
-    found[steady] = open_orders(
+    fixed = np.concatenate([arcs(planned[0][in_both], planned[1][in_both]), arcs(resources.before, resources.after)])
+    order_of_group = np.full(len(first), NONE)
+    order_of_group[steady] = open_orders(
         first=(moves.first + np.arange(len(moves.first))).astype(np.int32),
         duration=np.ones(len(together), np.int32),
         fixed=fixed,
@@ -48,4 +48,4 @@ def open_groups(graph: DependencyGraph, visits: Visits, pairs: Pairs, limit: int
         begin=visits.arrival[first[steady]],
         limit=limit,
     )
-    return found
+    return order_of_group

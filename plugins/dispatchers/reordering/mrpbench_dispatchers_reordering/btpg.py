@@ -86,9 +86,9 @@ class BtpgSession(SwitchingSession):
 
     def copied(self) -> "BtpgSession":
         """Return a session that goes on from here by itself."""
-        found = self._copied()
-        found.pairs = Pairs(*(column.copy() for column in self.pairs))
-        return found
+        twin = self._copied()
+        twin.pairs = Pairs(*(column.copy() for column in self.pairs))
+        return twin
 
     def update(self, now: float, view: FleetView) -> Orders:
         """Release the moves that wait for nothing, or only for robots that come later to places with an open order."""

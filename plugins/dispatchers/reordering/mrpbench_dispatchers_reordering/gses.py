@@ -31,5 +31,5 @@ class Gses(SearchingDispatcher):
 
     def search(self, arrays: Mapping[str, Int32]) -> tuple[Bool, int]:
         """See `SearchingDispatcher.search`."""
-        found = reorder(**arrays, wall_s=math.inf, memory_bytes=MEMORY_BYTES, work_limit=self.work_limit)
-        return found.switched.astype(bool), found.planned_cost - found.cost
+        result = reorder(**arrays, wall_s=math.inf, memory_bytes=MEMORY_BYTES, work_limit=self.work_limit)
+        return result.switched.astype(bool), result.planned_cost - result.cost

@@ -60,8 +60,8 @@ class Progress:
         """The first move i8[n] that each robot begins more than `horizon` seconds after its present one if it does not
         wait; that of another robot if it has none.
         """
-        found: Int = np.searchsorted(self._sum, self._sum[self.present] + horizon, side="right")
-        return found
+        moves: Int = np.searchsorted(self._sum, self._sum[self.present] + horizon, side="right")
+        return moves
 
     def _first_left(self, reached: Int) -> Int:
         keys = self._moves.robot * (1 << 32) + self._moves.segment

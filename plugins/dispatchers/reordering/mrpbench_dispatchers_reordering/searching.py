@@ -84,6 +84,6 @@ class SearchingSession(SwitchingSession):
         return bool((changes >= self.options.lateness).any())
 
     def _change(self, graph: AlternativeGraph) -> None:
-        found = self.options.search(graph.arrays)
-        if found is not None and found[1] >= self.options.gain * MILLISECONDS:
-            self.put_next(graph.order(found[0]))
+        change = self.options.search(graph.arrays)
+        if change is not None and change[1] >= self.options.gain * MILLISECONDS:
+            self.put_next(graph.order(change[0]))

@@ -63,9 +63,9 @@ class SwitchingSession(OrderKeepingSession):
         self.progress.use(problem, self.moves, cut)
 
     def _copied(self) -> Self:
-        found = super()._copied()
-        found.progress = copy.copy(self.progress)
-        return found
+        twin = super()._copied()
+        twin.progress = copy.copy(self.progress)
+        return twin
 
     def observe(self, now: float, view: FleetView) -> None:
         """Take note of the progress of the robots."""

@@ -65,8 +65,8 @@ def visits_of(problem: Problem, moves: Moves) -> Visits:
         completed=completed,
         arrival=np.concatenate([problem.begins, moves.leave]),
     )
-    kept = ~(disappears & (begin == NONE))
-    there = _chosen(there, kept)
+    stays = ~(disappears & (begin == NONE))
+    there = _chosen(there, stays)
     if footprints:
         on = np.ones(len(index), bool)
         ways = Visits(moves.robot, len(problem.roadmap.position) + moves.edge, index, index, ~on, on, moves.leave)
@@ -80,8 +80,8 @@ def at_times(visits: Visits, moves: Moves) -> Visits:
     return visits._replace(arrival=arrival)
 
 
-def _chosen(visits: Visits, kept: Bool) -> Visits:
-    return Visits._make(column[kept] for column in visits)
+def _chosen(visits: Visits, mask: Bool) -> Visits:
+    return Visits._make(column[mask] for column in visits)
 
 
 class Conflicts:
@@ -130,14 +130,14 @@ class Conflicts:
     def _are_implied(self, stride: int, keys: Int, one: Int, other: Int) -> Bool:
         """Tell which pairs of elements need no decision, because an end of an edge is near the other element too."""
         vertices = len(self._problem.roadmap.position)
-        found = np.zeros(len(one), bool)
+        implied = np.zeros(len(one), bool)
         for edge, element in ((one, other), (other, one)):
             on_edge = np.flatnonzero(edge >= vertices)
             for end in self._problem.roadmap.edges[edge[on_edge] - vertices].astype(np.int64).T:
                 key = end * stride + element[on_edge]
                 at = np.minimum(np.searchsorted(keys, key), len(keys) - 1)
-                found[on_edge] |= keys[at] == key
-        return found
+                implied[on_edge] |= keys[at] == key
+        return implied
 
 
 def _of_one_element(visits: Visits, chosen: Int) -> tuple[Int, Int]:

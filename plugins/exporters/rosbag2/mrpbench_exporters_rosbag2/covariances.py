@@ -35,8 +35,8 @@ class Covariances:
     def of(self, block: Chunk) -> BlockCovariances:
         """Covariances at the samples of `block`, which follows the block of the call before or is the same."""
         if block is not self._block:
-            self._block, self._found = block, self._next(block)
-        return self._found
+            self._block, self._covariances = block, self._next(block)
+        return self._covariances
 
     def _next(self, block: Chunk) -> BlockCovariances:
         truth, driven = block.get("truth"), block.get("odometry")

@@ -44,14 +44,16 @@ def from_nav2(server: Nav2Block, options: type[attrs.AttrsInstance]) -> dict[str
         InputError: a checker, a parameter or a value is not supported.
     """
     tolerance = server.take("failure_tolerance", float, 0.0)
-    found: dict[str, Any] = {"failure_tolerance": tolerance if tolerance >= 0 else float("inf")}  # as in Nav2
+    chosen_checkers: dict[str, Any] = {"failure_tolerance": tolerance if tolerance >= 0 else float("inf")}  # as in Nav2
     for kind, checkers in _KINDS.items():
         block = server.within(plugin_ids(server, kind)[0])
-        found[kind] = block.take("plugin", str, next(iter(checkers))).rpartition("::")[2]
-        if found[kind] not in checkers:
-            raise block.error(f"{found[kind]!r} is not supported", "plugin", hint=f"supported: {', '.join(checkers)}")
-        for name, default in checkers[found[kind]].items():
-            found[name] = block.take(name, type(default), default)
-            check_parameter(getattr(attrs.fields(options), name), found[name], block, name)
+        chosen_checkers[kind] = block.take("plugin", str, next(iter(checkers))).rpartition("::")[2]
+        if chosen_checkers[kind] not in checkers:
+            raise block.error(
+                f"{chosen_checkers[kind]!r} is not supported", "plugin", hint=f"supported: {', '.join(checkers)}"
+            )
+        for name, default in checkers[chosen_checkers[kind]].items():
+            chosen_checkers[name] = block.take(name, type(default), default)
+            check_parameter(getattr(attrs.fields(options), name), chosen_checkers[name], block, name)
         block.not_used(*_NOT_USED)
-    return found
+    return chosen_checkers

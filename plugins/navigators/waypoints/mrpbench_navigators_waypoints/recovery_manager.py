@@ -128,8 +128,8 @@ class _KnownSurroundings(Surroundings):
         free = self._controllers.is_free(self._robot, poses)
         if self._vertex is None:
             return free
-        kept: Bool = np.hypot(poses[:, 0] - self._vertex[0], poses[:, 1] - self._vertex[1]) >= self._distance
-        return free & kept
+        apart: Bool = np.hypot(poses[:, 0] - self._vertex[0], poses[:, 1] - self._vertex[1]) >= self._distance
+        return free & apart
 
 
 def _command(answer: Any, recovery: str, robot: int) -> tuple[float, float]:

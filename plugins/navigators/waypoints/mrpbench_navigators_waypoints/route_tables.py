@@ -151,8 +151,8 @@ class RouteTables:
         """The first corner i8[C] of its robot, from each on, where `is_one` bool[C]."""
         count = len(is_one)
         following = np.minimum.accumulate(np.where(is_one, np.arange(count), count)[::-1])[::-1]
-        found: Int = following - np.repeat(self.first_corner, self.last_corner + 1)
-        return found
+        corner: Int = following - np.repeat(self.first_corner, self.last_corner + 1)
+        return corner
 
     def _arrival(self, waypoint: Float, row: Int, heading: Float, rules: ArrivalRules) -> Float:
         goal = self.first + self.goal

@@ -130,8 +130,8 @@ class Waypoints(Navigator):
         """
         values = resolve_options(self)
         if self.nav2 is not None:
-            found, _ = self._checkers(self.nav2)
-            values |= {name: value for name, value in found.items() if getattr(self, name) is None}
+            checkers, _ = self._checkers(self.nav2)
+            values |= {name: value for name, value in checkers.items() if getattr(self, name) is None}
         return values
 
     def _checkers(self, nav2: Path) -> tuple[dict[str, Any], tuple[str, ...]]:

@@ -56,7 +56,7 @@ class RollingHorizon(Planner):
 
     def skip(self, problem: Problem) -> str | None:
         """Return why the planner cannot be given the new part, or None."""
-        return self.planner.skip(self._given(problem))
+        return self.planner.skip(self._with_horizon(problem))
 
     def skip_tasks(self, problem: Problem, places: Int | None) -> str | None:
         """Return why the planner cannot be used with tasks, or None."""
@@ -68,9 +68,9 @@ class RollingHorizon(Planner):
 
     def start(self) -> PlannerSession:
         """Begin a session of the planner."""
-        return RollingHorizonSession(self.planner.start(), self._given)
+        return RollingHorizonSession(self.planner.start(), self._with_horizon)
 
-    def _given(self, problem: Problem) -> Problem:
+    def _with_horizon(self, problem: Problem) -> Problem:
         """What the planner is given."""
         rest = from_rest(problem)
         if Feature.HORIZON in self.planner.supports:
@@ -82,11 +82,11 @@ class RollingHorizonSession(PlannerSession):
     """Plans new parts with a session of another planner, which is `given` another problem."""
 
     def __init__(self, session: PlannerSession, with_horizon: Callable[[Problem], Problem]) -> None:
-        self._session, self._given = session, with_horizon
+        self._session, self._with_horizon = session, with_horizon
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """Plan from rest, after what is committed."""
-        windowed = self._given(problem)
+        windowed = self._with_horizon(problem)
         result = self._session.plan(windowed, budget)
         plan = result.plan
         if plan is not None and problem.horizon is not None and windowed.horizon is None:

@@ -216,7 +216,7 @@ class _Builder:
             name = self._hulls[id(points)] = f"hull_{len(self._hulls)}"
             mesh = self._spec.add_mesh(name=name, inertia=mujoco.mjtMeshInertia.mjMESH_INERTIA_CONVEX)
             mesh.uservert = np.ascontiguousarray(points).ravel()
-            self._kept = [*getattr(self, "_kept", ()), points]
+            self._points = [*getattr(self, "_points", ()), points]
         return self._hulls[id(points)]
 
 
