@@ -70,7 +70,7 @@ def run(arguments: argparse.Namespace) -> int:
             hunt = Hunt(moves=moves, runs=runs, announce=print)
             end = hunt.run(arguments.most)
             files = [
-                write_failure(out / "failures" / f"{number}-{file_name(each.kind)}", each, runs, points[0].folder)
+                write_failure(out / "failures" / f"{number}-{file_name(each.kind)}", each, runs)
                 for number, each in enumerate(hunt.failures.values(), start=1)
             ]
     if arguments.json:

@@ -1,6 +1,5 @@
 """The answer of a hunt: one sentence, and a folder for each failure."""
 
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -11,6 +10,7 @@ from mrpbench_core.cli.output.replays import replay_writer, try_write_replay
 from mrpbench_core.files.output import replace_file
 from mrpbench_core.files.text import counted
 from mrpbench_core.report.answer.wording import listed
+from mrpbench_search.asking.brief import brief_config
 from mrpbench_search.hunting.runs import CaseRuns, Judged
 from mrpbench_search.hunting.search import Failure, Hunt
 
@@ -75,28 +75,22 @@ def table(failures: Sequence[Failure]) -> tuple[list[str], list[list[Any]]]:
     return names, cells
 
 
-def write_failure(folder: Path, failure: Failure, runs: CaseRuns, origin: Path) -> dict[str, str]:
-    """Write what repeats and shows the smallest case of a failure.
-
-    Args:
-        folder: of the failure.
-        failure: to write.
-        runs: of the hunt.
-        origin: folder of the study, to which files in its configuration are relative.
+def write_failure(folder: Path, failure: Failure, runs: CaseRuns) -> dict[str, str]:
+    """Write what repeats and shows the smallest case of a failure into a folder.
 
     Returns:
         The names of what was written: `scenario`, `study` and, where there is a recording, `replay`.
     """
     folder.mkdir(parents=True, exist_ok=True)
     smallest = failure.smallest
-    drawn = smallest.case.write(folder)
-    scenario = folder / "scenario.yaml"
-    drawn.replace(scenario)
-    study = folder / "study.yaml"
-    records = smallest.records
-    document = _study(records[0]["config"], origin, folder) | {"name": folder.name}
-    if len(records) > 1:
-        document["matrix"] = {"include": [_differing(records, place, origin, folder) for place in range(len(records))]}
+    scenario, study = folder / "scenario.yaml", folder / "study.yaml"
+    smallest.case.write(folder).replace(scenario)
+    configs = [_with_scenario(brief_config(point, folder)) for point in runs.points(smallest.case)]
+    shared = {key: value for key, value in configs[0].items() if all(other.get(key) == value for other in configs)}
+    document = {"name": folder.name, **shared}
+    if len(configs) > 1:
+        own = [{key: [value] for key, value in config.items() if key not in shared} for config in configs]
+        document["matrix"] = {"include": own}
     text = f"# {failure.kind}: {failure.reason}\n{yaml.safe_dump(document, sort_keys=False, allow_unicode=True)}"
     replace_file(study, text.encode())
     found = {"scenario": str(scenario), "study": str(study)}
@@ -105,44 +99,10 @@ def write_failure(folder: Path, failure: Failure, runs: CaseRuns, origin: Path) 
     return found
 
 
-def _study(config: dict[str, Any], origin: Path, folder: Path) -> dict[str, Any]:
-    """The configuration of a run with files relative to a folder, and the scenario file that lies there."""
-    moved: dict[str, Any] = _moved(config, origin, folder)
-    moved["scenario"] = {"plugin": "file", "file": "scenario.yaml"}
-    if isinstance(config["tasks"], dict):
-        moved["tasks"] = {"plugin": "file", "file": "scenario.yaml"}
-    return moved
-
-
-def _differing(records: Sequence[Any], place: int, origin: Path, folder: Path) -> dict[str, Any]:
-    """The settings of one of several runs that are not those of the others, as an entry of `matrix.include`."""
-    configs = [record["config"] for record in records]
-    keys = [key for key, value in configs[place].items() if any(other[key] != value for other in configs)]
-    return {key: [_moved(configs[place][key], origin, folder)] for key in keys}
-
-
-def _moved(value: Any, origin: Path, folder: Path) -> Any:
-    """A part of a configuration with the names of files and of local plugins relative to another folder."""
-    if isinstance(value, dict):
-        if value.keys() == {"path", "sha256"}:
-            return _relative(value["path"], origin, folder)
-        return {
-            key: _plugin(inner, origin, folder) if key == "plugin" else _moved(inner, origin, folder)
-            for key, inner in value.items()
-        }
-    return [_moved(inner, origin, folder) for inner in value] if isinstance(value, list) else value
-
-
-def _plugin(name: Any, origin: Path, folder: Path) -> Any:
-    file, colon, cls = str(name).rpartition(":")
-    if not colon or not file.endswith(".py"):
-        return name
-    moved = _relative(file, origin, folder)
-    return f"{moved if moved.startswith('.') else f'./{moved}'}:{cls}"
-
-
-def _relative(name: str, origin: Path, folder: Path) -> str:
-    return Path(os.path.relpath(origin / name, folder)).as_posix()
+def _with_scenario(config: dict[str, Any]) -> dict[str, Any]:
+    """The configuration with the scenario file that lies beside it."""
+    file = {"plugin": "file", "file": "scenario.yaml"}
+    return config | {"scenario": file} | ({"tasks": file} if "tasks" in config else {})
 
 
 def _replay(page: Path, judged: Judged, runs: CaseRuns) -> Path | None:

@@ -1,7 +1,8 @@
 """Moves of a hunt: new cases, and cases near another one.
 
-Robots that never meet break nothing. New cases therefore lead pairs of robots through the same vertex at the same time,
-each vertex of the roadmap with the same probability, so that rare situations are not left to chance.
+Robots that never meet break nothing. New cases therefore lead pairs of robots through the same vertex at the same time.
+A quarter of these vertices are drawn from the roadmap, the others from a kind of vertex (`Space.kinds`), each kind with
+the same probability, so that a junction of which there is one is tried as often as those of which there are many.
 """
 
 from collections.abc import Callable, Sequence
@@ -16,6 +17,8 @@ from mrpbench_search.hunting.cases import Case
 from mrpbench_search.hunting.space import Space
 
 TRIES = 20
+SAME_TIME = 1.5
+"""Ticks between two robots at the vertex at which they meet, as they drive alone."""
 NEAR = 6
 """Places among which a start or goal moves."""
 ASIDE = 0.4
@@ -80,15 +83,15 @@ class Moves:
         """Lead two robots through one vertex at the same time, as they drive alone."""
         space = self.space
         for _ in range(TRIES):
-            vertex = int(self.rng.integers(space.distance.shape[1]))
+            vertex = self._vertex()
             ways = space.distance[:, vertex]
-            there = np.flatnonzero(np.isfinite(ways) & (ways > 0))
+            there = np.flatnonzero(np.isfinite(ways))
             if len(there) < 2:
                 continue
-            near = there[ways[there] <= np.quantile(ways[there], 0.5)]
-            start = int(self.rng.choice(near))
-            starts = [start, self._one_of(there[(np.abs(ways[there] - ways[start]) <= 1.5) & (there != start)])]
-            goals = [None if place is None else self._beyond(place, vertex) for place in starts]
+            start = self._near(there[np.argsort(ways[there], kind="stable")])
+            alike = np.abs(ways[there] - ways[start]) <= SAME_TIME
+            starts = [start, self._one_of(there[alike & (there != start)])]
+            goals = [self._beyond(place, vertex, other) for place, other in zip(starts, reversed(starts), strict=True)]
             if None in starts or None in goals:
                 continue
             found = case
@@ -98,11 +101,30 @@ class Moves:
                 return found
         return case
 
-    def _beyond(self, start: int, vertex: int) -> int | None:
-        """A place to which a shortest way from `start` leads through a vertex."""
+    def _vertex(self) -> int:
+        """A vertex at which robots meet."""
+        kinds = self.space.kinds
+        if self.rng.random() < 0.25:
+            return int(self.rng.integers(self.space.distance.shape[1]))
+        return int(self.rng.choice(kinds[int(self.rng.integers(len(kinds)))]))
+
+    def _near(self, ordered: Int) -> int:
+        """One of some places in the order of their distance; the logarithm of its rank is uniform."""
+        return int(ordered[int(len(ordered) ** self.rng.random()) - 1])
+
+    def _beyond(self, start: int | None, vertex: int, other: int | None) -> int | None:
+        """A place to which a shortest way from `start` leads through a vertex.
+
+        Often it is near the start of another robot, so that they meet head-on.
+        """
+        if start is None or other is None:
+            return None
         space = self.space
-        through = space.distance[start, vertex] + space.distance[:, vertex] - space.distance[start, space.vertex]
-        return self._one_of(np.flatnonzero((np.abs(through) < 1e-3) & (np.arange(len(through)) != start)))
+        detour = space.distance[start, vertex] + space.distance[:, vertex] - space.distance[start, space.vertex]
+        through = np.flatnonzero((np.abs(detour) < 1e-3) & (np.arange(len(detour)) != start))
+        if len(through) and self.rng.random() < 0.5:
+            return self._near(through[np.argsort(space.distance[other, space.vertex[through]], kind="stable")])
+        return self._one_of(through)
 
     def _one_of(self, choices: Int) -> int | None:
         return int(self.rng.choice(choices)) if len(choices) else None

@@ -29,12 +29,13 @@ KINDS = {
 """Kinds of failures."""
 ANY = "failure"
 """Any of the kinds but `late`."""
-METRICS = ("planning", "execution", "deadlock", "clearance", "contact")
-"""Metrics that kinds of failures are read from."""
+METRICS = ("planning", "execution", "deadlock", "clearance")
+"""Metrics that kinds of failures are read from; with movers also `people`."""
 COMPARES = " worse than "
 """Is in the text of a property that compares two candidates."""
 LATE = 2.0
 """Times the planned duration."""
+_CONTACTS = ("execution.robot_contacts", "execution.wall_contacts", "people.contacts_by_robot_per_robot_h")
 _NOT_ARRIVED = (RunStatus.GOALS_MISSED, RunStatus.EXECUTION_ABORTED)
 _CRASHED = (RunStatus.CRASHED, RunStatus.CONTRACT_BROKEN, RunStatus.ASSIGNMENT_FAILED)
 _BOUND = re.compile(r"\s*([\w.@/-]+\.[\w.]+)\s*([<>])\s*(-?[\d.]+(?:e-?\d+)?)\s*")
@@ -178,9 +179,7 @@ def failures(record: Record) -> tuple[str, ...]:
         found.append("crash")
     if status == RunStatus.PLAN_INVALID:
         found.append("invalid")
-    if any(metrics.get(name) for name in ("execution.robot_contacts", "execution.wall_contacts")) or metrics.get(
-        "people.contacts_per_robot_h"
-    ):
+    if any(metrics.get(name) for name in _CONTACTS):
         found.append("contact")
     if status in _NOT_ARRIVED:
         found.append("deadlock" if metrics.get("deadlock.unresolved") else "stuck")

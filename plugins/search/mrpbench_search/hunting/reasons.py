@@ -72,7 +72,8 @@ def _contact(record: Record, results: Results) -> str:
         x, y = truth[int(abs(time - at[0]).argmin()), robot, :2].tolist()
     finally:
         with_recording.close()
-    touched = "a wall or an obstacle" if other < 0 else names[other] if other < len(names) else "a person"
+    things = ("a wall", *names, *(f"a {mover.kind}" for mover in context.movers))
+    touched = things[other + 1]
     return f"{names[robot]} touches {touched} at {at[0]:.1f} s, at ({x:.2f}, {y:.2f})"
 
 

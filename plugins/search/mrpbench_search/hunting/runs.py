@@ -75,13 +75,20 @@ class CaseRuns:
         assert self.results is not None
         return Results(self.results.folder, only=[record["run_id"] for record in judged.records])
 
+    def points(self, case: Case) -> list[StudyRun]:
+        """Return the runs of a case: one for each candidate."""
+        return [study.runs[0] for study in self._variants([case], [{}])]
+
+    def _variants(self, cases: Sequence[Case], labels: Sequence[dict[str, int]]) -> list[StudyRuns]:
+        """The runs of some cases for each candidate."""
+        changes = [case.changes(self.folder) | {"recording.keep": "all"} for case in cases]
+        return [
+            read_variants(self.study, each, [one | {"metrics": _metrics(each)} for one in changes], labels)
+            for each in self.candidates
+        ]
+
     def _judge(self, cases: dict[str, Case], labels: list[dict[str, int]]) -> None:
-        changes = [case.changes(self.folder) for case in cases.values()]
-        by_candidate = []
-        for candidate in self.candidates:
-            more = {"metrics": _metrics(candidate), "recording.keep": "all"}
-            study = read_variants(self.study, candidate, [each | more for each in changes], labels)
-            by_candidate.append(study)
+        by_candidate = self._variants(list(cases.values()), labels)
         study = attrs.evolve(
             by_candidate[0],
             runs=tuple(run for each in by_candidate for run in each.runs),
@@ -97,4 +104,6 @@ def _metrics(candidate: StudyRun) -> list[dict[str, object]]:
     """The metrics of the study, and those from which failures are read."""
     given = list(candidate.canonical["metrics"])
     named = {block["plugin"] for block in given}
-    return [*given, *({"plugin": name} for name in METRICS if name not in named)]
+    blocks = any(event["kind"] == "blocked" for event in candidate.canonical["faults"]["events"])
+    movers = ("people",) if candidate.canonical["crowds"] or blocks else ()
+    return [*given, *({"plugin": name} for name in (*METRICS, *movers) if name not in named)]

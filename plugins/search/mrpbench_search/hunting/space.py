@@ -46,6 +46,8 @@ class Space:
     """f8[p,V] from each place to each vertex of the roadmap, ticks."""
     vertex_position: Float
     """f8[V,2]."""
+    kinds: tuple[Int, ...]
+    """Vertices of the roadmap by what is around them; see `_kinds`."""
     room: float
     """Least distance between two starts, and between two goals, metres."""
 
@@ -94,6 +96,7 @@ def read_space(point: StudyRun, first: int) -> Space:
         level=levels[:most],
         room=drawn["room"],
         vertex_position=roadmap["position"],
+        kinds=_kinds(roadmap["edges"], len(roadmap["position"]), drawn["resources"]),
         **_ways(roadmap, poses[:most], levels[:most]),
     )
 
@@ -143,6 +146,7 @@ def draw(parcel: Mapping[str, Any], seeds: Sequence[int]) -> dict[str, Any]:
         "scenarios": scenarios,
         "streams": None if question.tasks is None else streams,
         "roadmap": arrays,
+        "resources": [[resource.kind, list(resource.vertices)] for resource in roadmap.resources],
         "room": 2 * float(found.fleet.radii.max()),
     }
 
@@ -182,3 +186,22 @@ def _ways(roadmap: Mapping[str, Any], places: Float, levels: Int16) -> dict[str,
     weights = np.maximum(allowed[usable], 1e-6)  # an edge without duration is an edge
     graph = csr_array((weights, (edges[usable, 0], edges[usable, 1])), shape=(size, size))
     return {"vertex": vertex, "distance": dijkstra(graph, indices=vertex)}
+
+
+def _kinds(edges: Int, size: int, resources: Sequence[tuple[str, list[int]]]) -> tuple[Int, ...]:
+    """Group vertices by the number of ways from each of their neighbours, and by doors, lifts and mutexes.
+
+    Ends of aisles, junctions of three ways, and places beside a door are kinds, however few there are.
+    """
+    degree = np.bincount(edges[:, 0], minlength=size)
+    around: list[list[int]] = [[] for _ in range(size)]
+    for tail, head in edges.tolist():
+        around[tail].append(int(degree[head]))
+    used = [""] * size
+    for kind, vertices in resources:
+        for vertex in vertices:
+            used[vertex] += kind
+    groups: dict[tuple[Any, ...], list[int]] = {}
+    for vertex in range(size):
+        groups.setdefault((used[vertex], *sorted(around[vertex])), []).append(vertex)
+    return tuple(np.array(group) for group in groups.values())
