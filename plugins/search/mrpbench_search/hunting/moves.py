@@ -1,7 +1,7 @@
 """Moves of a hunt: new cases, and cases near another one.
 
-Robots that never meet break nothing. New cases therefore lead pairs of robots through the same vertex at the same time.
-A quarter of these vertices are drawn from the roadmap, the others from a kind of vertex (`Space.kinds`), each kind with
+Robots that never meet break nothing. New cases therefore lead pairs of robots along one edge in opposite directions at
+the same time. The edge begins at any vertex, or, more often, at one of a kind of vertices (`Space.kinds`): each kind has
 the same probability, so that a junction of which there is one is tried as often as those of which there are many.
 """
 
@@ -17,8 +17,10 @@ from mrpbench_search.hunting.cases import Case
 from mrpbench_search.hunting.space import Space
 
 TRIES = 20
-SAME_TIME = 1.5
-"""Ticks between two robots at the vertex at which they meet, as they drive alone."""
+EXACT = 1e-3
+"""Ticks by which equal ways may differ."""
+SAME_TIME = 1.0
+"""Durations of an edge by which two robots that meet there may differ, as they drive alone."""
 NEAR = 6
 """Places among which a start or goal moves."""
 ASIDE = 0.4
@@ -80,23 +82,29 @@ class Moves:
         return one, other
 
     def _meeting(self, case: Case, one: int, other: int) -> Case:
-        """Lead two robots through one vertex at the same time, as they drive alone."""
+        """Lead two robots along one edge in opposite directions at about the same time, as they drive alone."""
         space = self.space
         for _ in range(TRIES):
-            vertex = self._vertex()
-            ways = space.distance[:, vertex]
-            there = np.flatnonzero(np.isfinite(ways))
-            if len(there) < 2:
+            tail = self._vertex()
+            first, last = space.ways.indptr[tail : tail + 2]
+            head = self._one_of(space.ways.indices[first:last])
+            if head is None:
                 continue
-            start = self._near(there[np.argsort(ways[there], kind="stable")])
-            alike = np.abs(ways[there] - ways[start]) <= SAME_TIME
-            starts = [start, self._one_of(there[alike & (there != start)])]
-            goals = [self._beyond(place, vertex, other) for place, other in zip(starts, reversed(starts), strict=True)]
-            if None in starts or None in goals:
+            duration = float(space.ways[tail, head])
+            near, far = space.distance[:, tail], space.distance[:, head]
+            with np.errstate(invalid="ignore"):  # infinite distances
+                behind = np.flatnonzero(np.abs(near + duration - far) < EXACT)
+                before = np.flatnonzero(np.abs(far + duration - near) < EXACT)
+            if not len(behind):
                 continue
-            found = case
-            for robot, begin, end in zip((one, other), starts, goals, strict=True):
-                found = self._placed(found, robot, begin, end)
+            start = self._near(behind[np.argsort(near[behind], kind="stable")])
+            opposite = self._one_of(before[np.abs(far[before] - near[start]) <= SAME_TIME * duration])
+            if opposite is None:
+                continue
+            goals = self._beyond(start, head, opposite), self._beyond(opposite, tail, start)
+            if None in goals:
+                continue
+            found = self._placed(self._placed(case, one, start, goals[0]), other, opposite, goals[1])
             if self._has_room(found):
                 return found
         return case
@@ -112,16 +120,12 @@ class Moves:
         """One of some places in the order of their distance; the logarithm of its rank is uniform."""
         return int(ordered[int(len(ordered) ** self.rng.random()) - 1])
 
-    def _beyond(self, start: int | None, vertex: int, other: int | None) -> int | None:
-        """A place to which a shortest way from `start` leads through a vertex.
-
-        Often it is near the start of another robot, so that they meet head-on.
-        """
-        if start is None or other is None:
-            return None
+    def _beyond(self, start: int, vertex: int, other: int) -> int | None:
+        """A place to which a shortest way from `start` leads through a vertex, often near the start of another robot."""
         space = self.space
-        detour = space.distance[start, vertex] + space.distance[:, vertex] - space.distance[start, space.vertex]
-        through = np.flatnonzero((np.abs(detour) < 1e-3) & (np.arange(len(detour)) != start))
+        with np.errstate(invalid="ignore"):
+            detour = space.distance[start, vertex] + space.distance[:, vertex] - space.distance[start, space.vertex]
+        through = np.flatnonzero((np.abs(detour) < EXACT) & (np.arange(len(detour)) != start))
         if len(through) and self.rng.random() < 0.5:
             return self._near(through[np.argsort(space.distance[other, space.vertex[through]], kind="stable")])
         return self._one_of(through)
