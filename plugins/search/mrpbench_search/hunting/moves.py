@@ -1,8 +1,8 @@
 """Moves of a hunt: new cases, and cases near another one.
 
 Robots that never meet break nothing. New cases therefore lead pairs of robots along one edge in opposite directions at
-the same time. The edge begins at any vertex, or, more often, at one of a kind of vertices (`Space.kinds`): each kind has
-the same probability, so that a junction of which there is one is tried as often as those of which there are many.
+the same time. The edge begins at any vertex, or, more often, at one of a kind (`Space.kinds`): all kinds have the same
+probability, so that a junction of which there is one is tried as often as those of which there are many.
 """
 
 from collections.abc import Callable, Sequence
@@ -121,7 +121,7 @@ class Moves:
         return int(ordered[int(len(ordered) ** self.rng.random()) - 1])
 
     def _beyond(self, start: int, vertex: int, other: int) -> int | None:
-        """A place to which a shortest way from `start` leads through a vertex, often near the start of another robot."""
+        """A place to which a shortest way from `start` leads through a vertex, often near the other one."""
         space = self.space
         with np.errstate(invalid="ignore"):
             detour = space.distance[start, vertex] + space.distance[:, vertex] - space.distance[start, space.vertex]
