@@ -11,6 +11,7 @@ from typing import Any
 import attrs
 import numpy as np
 
+from mrpbench_core.config.faults import OF_ROBOTS
 from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_search.hunting.cases import Case
@@ -23,7 +24,9 @@ SAME_TIME = 1.0
 """Durations of an edge by which two robots that meet there may differ, as they drive alone."""
 NEAR = 6
 """Places among which a start or goal moves."""
-ASIDE = 0.4
+NUDGE = 0.1
+"""Standard deviation in metres by which a blocked place moves."""
+ASIDE = 0.3
 """Standard deviation in metres of the distance between a blocked place and the way of a robot."""
 
 
@@ -52,8 +55,11 @@ class Moves:
         order = self.rng.permutation(case.robots)
         for pair in zip(order[::2].tolist(), order[1::2].tolist(), strict=False):
             case = self._meeting(case, *pair)
-        for index in range(len(case.events)):
-            case = self._other_event(case, index)
+        events = (
+            event if event.get("at") is None else event | self._elsewhere(case, event | {"place": None})
+            for event in case.events
+        )
+        case = attrs.evolve(case, events=tuple(events))
         return self._other_people(case)
 
     def near(self, case: Case) -> Case:
@@ -173,17 +179,27 @@ class Moves:
         return case.with_tasks(tuple(tasks))
 
     def _other_event(self, case: Case, index: int) -> Case:
-        """Let a fault begin at another time, last for another time, and concern another robot or place."""
+        """Let a fault that has a time begin at another time, last longer or less, or concern another robot or place."""
         event = dict(case.events[index])
-        if event.get("at") is not None:
-            event["at"] = round(float(event["at"] or 1.0) * float(self.rng.uniform(0.25, 2)), 2)
-            if event.get("lasts") is not None:
-                event["lasts"] = round(max(0.5, float(event["lasts"]) * float(self.rng.uniform(0.5, 1.5))), 2)
-            if event["kind"] in ("stop", "slow", "silent", "lidar"):
-                event["robot"] = int(self.rng.integers(case.robots))
-            elif event["kind"] == "blocked":
-                event |= self._place_on_the_way(case)
+        if event.get("at") is None:
+            return case
+        event |= self._elsewhere(case, event) if self.rng.random() < 0.5 else self._at_another_time(event)
         return attrs.evolve(case, events=(*case.events[:index], event, *case.events[index + 1 :]))
+
+    def _at_another_time(self, event: dict[str, Any]) -> dict[str, Any]:
+        found = {"at": round(float(event["at"] or 1.0) * float(self.rng.uniform(0.25, 2)), 2)}
+        if event.get("lasts") is not None:
+            found["lasts"] = round(max(0.5, float(event["lasts"]) * float(self.rng.uniform(0.5, 1.5))), 2)
+        return found
+
+    def _elsewhere(self, case: Case, event: dict[str, Any]) -> dict[str, Any]:
+        if event["kind"] in OF_ROBOTS:
+            return {"robot": int(self.rng.integers(case.robots))}
+        if event["kind"] != "blocked":
+            return {}
+        if event.get("place") and self.rng.random() < 0.75:
+            return {"place": [round(float(x + self.rng.normal(0, NUDGE)), 3) for x in event["place"]]}
+        return self._place_on_the_way(case)
 
     def _place_on_the_way(self, case: Case) -> dict[str, Any]:
         """A place beside the way of a robot."""
