@@ -1,22 +1,21 @@
 """`mrpbench hunt STUDY --for FAILURE [key=value…]`: search for runs that fail, and shrink them."""
 
 import argparse
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from mrpbench_core.cli.output.table import print_json, print_table
-from mrpbench_core.engine.loading.runs import StudyRun, StudyRuns
+from mrpbench_core.engine.loading.runs import StudyRuns
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.printing import file_name
 from mrpbench_core.files.text import counted
-from mrpbench_core.report.reading.axes import NO_AXES, find_axes, name_axes
 from mrpbench_core.report.reading.columns import describe_columns
 from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_search.asking.arguments import add_search, searching, study_of
+from mrpbench_search.asking.configurations import by_configuration
 from mrpbench_search.asking.requests import read_whole_study
 from mrpbench_search.choosing.metrics import metric_of
 from mrpbench_search.hunting.answer import document, sentence, table, write_failure
@@ -58,7 +57,7 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(f"--most {arguments.most}: at least 1")
     with slots_of_this_process():
         study = read_whole_study(file, overrides)
-        candidates = _candidates(study)
+        candidates = {name: points[0] for name, points in by_configuration(study).items()}
         tried = _property(study, arguments, list(candidates))
         points = list(candidates.values())
         space = read_space(points[0], min(point.canonical["seed"] for point in study.runs))
@@ -78,16 +77,6 @@ def run(arguments: argparse.Namespace) -> int:
     else:
         _print(study.name, hunt, files, len(requests.asked), end, out)
     return int(bool(hunt.failures))
-
-
-def _candidates(study: StudyRuns) -> dict[str, StudyRun]:
-    """A run of each candidate of a study, by the options in which they differ."""
-    configs: dict[str, StudyRun] = {}
-    for point in study.runs:
-        own = {key: value for key, value in point.canonical.items() if key not in NO_AXES}
-        configs.setdefault(json.dumps(own), point)
-    names = map(name_axes, find_axes([json.loads(text) for text in configs]))
-    return dict(zip(names, configs.values(), strict=True))
 
 
 def _property(study: StudyRuns, arguments: argparse.Namespace, candidates: list[str]) -> Property:
