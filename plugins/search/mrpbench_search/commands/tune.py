@@ -50,8 +50,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
         "A setting must succeed as often as the defaults and touch no more; `--subject-to` adds constraints on means"
         " of columns, in which `base` is that of the defaults. The budget is that of the search; the runs that show"
-        " its result come on top. Exit code: 0 a setting is shown to be better, 1 none is, 2 the configuration is wrong, 130"
-        " interrupted (the same command continues)."
+        " its result come on top. Exit code: 0 a setting is shown to be better, 1 none is, 2 the configuration is"
+        " wrong, 130 interrupted (the same command continues)."
     )
     add_search(parser, "results/NAME-tune")
     goal = {"action": "append", "default": [], "metavar": "COLUMN"}

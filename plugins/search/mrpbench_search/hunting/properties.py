@@ -35,7 +35,7 @@ COMPARES = " worse than "
 """Is in the text of a property that compares two candidates."""
 LATE = 2.0
 """Times the planned duration."""
-_CONTACTS = ("execution.robot_contacts", "execution.wall_contacts", "people.contacts_by_robot_per_robot_h")
+_CONTACTS = ("execution.robot_contacts", "execution.wall_contacts", "people.contacts_per_robot_h")
 _NOT_ARRIVED = (RunStatus.GOALS_MISSED, RunStatus.EXECUTION_ABORTED)
 _CRASHED = (RunStatus.CRASHED, RunStatus.CONTRACT_BROKEN, RunStatus.ASSIGNMENT_FAILED)
 _BOUND = re.compile(r"\s*([\w.@/-]+\.[\w.]+)\s*([<>])\s*(-?[\d.]+(?:e-?\d+)?)\s*")

@@ -51,9 +51,9 @@ def importance_table(rows: Sequence[Importance]) -> tuple[list[str], list[list[A
     """Return headings and cells."""
     cells = []
     for row in rows:
-        loss = (
-            "none: all runs are the same" if row.loss is None else f"{row.loss:+.1%} [{row.low:+.1%}, {row.high:+.1%}]"
-        )
+        loss = "none: all runs are the same" if row.loss is None else f"{row.loss:+.1%}"
+        if row.low is not None:
+            loss += f" [{row.low:+.1%}, {row.high:+.1%}]"
         cells.append([row.key, _value(row.value), _value(row.default), loss, "shown" if row.shown else "not shown"])
     return ["parameter", "value", "default", "loss at its default", ""], cells
 

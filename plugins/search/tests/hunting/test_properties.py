@@ -29,7 +29,7 @@ def reading(text, candidates=("",), column=DURATION):
         (record("goals_missed", deadlock__unresolved=True), ("deadlock",)),
         (record("goals_missed", deadlock__unresolved=False), ("stuck",)),
         (record(execution__robot_contacts=1), ("contact",)),
-        (record(people__contacts_by_robot_per_robot_h=3.0), ("contact",)),
+        (record(people__contacts_per_robot_h=3.0), ("contact",)),
         (record(execution__duration_s=21.0, planning__makespan=10.0), ("late",)),
         (record("plan_unsolvable"), ()),
         (record("scenario_infeasible"), ()),
