@@ -39,7 +39,7 @@ class SwapsAtJunctions(Planner):
 
 @attrs.frozen(kw_only=True)
 class ReleasesEarly(Adg):
-    """Releases as `adg`, but lets a robot go at once if it has to wait for a robot for which another one waits, too."""
+    """Releases as `adg`, but lets the second one of two robots that wait for the same robot go at once."""
 
     def start(self, problem, plan):
         return ReleasesEarlySession(self, problem, plan)
@@ -54,8 +54,8 @@ class ReleasesEarlySession(AdgSession):
         waits = [self.graph.blockers(robot) for robot in range(len(self.released))]
         for robot, others in enumerate(waits):
             standing = self.released[robot] == self.seen[0][robot] < len(self.plan.paths[robot])
-            rivals = [other for other in range(len(waits)) if other != robot and set(waits[other]) & set(others)]
-            if standing and others and rivals:
+            rivals = [other for other in range(robot) if len(others) == 1 and waits[other] == others]
+            if standing and rivals and all(self.released[other] == self.seen[0][other] for other in rivals):
                 early = self.released.copy()
                 early[robot] += 1
                 self.released = frozen_array(early, "i4")
