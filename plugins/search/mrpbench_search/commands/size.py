@@ -116,8 +116,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
         f"A fleet serves the orders if fewer than {TOLERANCE:.0%} of them pile up and the 95th percentile of their"
-        " service times is below --p95, each with 95 % confidence over seeds. Exit code: 0 the smallest fleet is known, 1"
-        " it is not, 2 the configuration is wrong, 130 interrupted (the same command continues)."
+        " service times is below --p95, each with 95 % confidence over seeds. Exit code: 0 the smallest fleet is known,"
+        " 1 it is not, 2 the configuration is wrong, 130 interrupted (the same command continues)."
     )
     add_search(parser, "results/NAME-size")
     parser.add_argument("--orders", required=True, metavar="RATE", help="orders that arrive, e.g. `300/h` or `5/min`")

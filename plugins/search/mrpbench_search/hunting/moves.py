@@ -2,7 +2,8 @@
 
 Robots that never meet break nothing. New cases therefore lead pairs of robots along one edge in opposite directions at
 the same time. The edge begins at any vertex, or, more often, at one of a kind (`Space.kinds`): all kinds have the same
-probability, so that a junction of which there is one is tried as often as those of which there are many.
+probability, so that a junction of which there is one is tried as often as those of which there are many. In half of the
+new cases all pairs meet at one vertex.
 """
 
 from collections.abc import Callable, Sequence
@@ -53,8 +54,9 @@ class Moves:
         """Return a case that is near no other one: a draw in which pairs of robots meet."""
         case = self.drawn(int(self.rng.integers(len(self.space.scenarios))))
         order = self.rng.permutation(case.robots)
+        vertex = self._vertex() if self.rng.random() < 0.5 else None
         for pair in zip(order[::2].tolist(), order[1::2].tolist(), strict=False):
-            case = self._meeting(case, *pair)
+            case = self._meeting(case, *pair, vertex)
         events = (
             event if event.get("at") is None else event | self._elsewhere(case, event | {"place": None})
             for event in case.events
@@ -87,11 +89,14 @@ class Moves:
         one, other = self.rng.choice(count, 2, replace=False).tolist()
         return one, other
 
-    def _meeting(self, case: Case, one: int, other: int) -> Case:
-        """Lead two robots along one edge in opposite directions at about the same time, as they drive alone."""
+    def _meeting(self, case: Case, one: int, other: int, vertex: int | None = None) -> Case:
+        """Lead two robots along one edge in opposite directions at about the same time, as they drive alone.
+
+        The edge begins at a vertex, if one is stated, so that several pairs meet there.
+        """
         space = self.space
         for _ in range(TRIES):
-            tail = self._vertex()
+            tail = self._vertex() if vertex is None else vertex
             first, last = space.ways.indptr[tail : tail + 2]
             head = self._one_of(space.ways.indices[first:last])
             if head is None:

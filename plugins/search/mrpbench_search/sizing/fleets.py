@@ -1,8 +1,8 @@
 """Which fleets serve the orders, by one-sided limits of means over seeds, and which fleet to try next.
 
 A fleet serves them if fewer tasks than `TOLERANCE` pile up (see `mrpbench_search.saturation.rates`) and, where a bound
-is stated, the 95th percentile of the service times is below it. Sizes between one that does not serve the orders and one
-that does are tried, others are not.
+is stated, the 95th percentile of the service times is below it. Sizes between one that does not serve the orders and
+one that does are tried, others are not.
 """
 
 import math
