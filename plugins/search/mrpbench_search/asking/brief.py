@@ -42,9 +42,10 @@ def write_brief(parcel: Mapping[str, Any]) -> dict[str, Any]:
 
 def _named(block: dict[str, Any], component: Any) -> Any:
     """The name of a component, or a block of the options that differ from their defaults."""
-    fields = attrs.fields_dict(type(component)).values()
     own = {
-        field.alias: block[field.alias] for field in fields if getattr(component, field.name) != default_of(field, None)
+        str(field.alias): block[str(field.alias)]
+        for field in attrs.fields(type(component))
+        if getattr(component, field.name) != default_of(field, component)
     }
     return {"plugin": block["plugin"], **own} if own else block["plugin"]
 

@@ -81,7 +81,7 @@ class CaseRuns:
 
     def _variants(self, cases: Sequence[Case], labels: Sequence[dict[str, int]]) -> list[StudyRuns]:
         """The runs of some cases for each candidate."""
-        changes = [case.changes(self.folder) | {"recording.keep": "all"} for case in cases]
+        changes = [{**case.changes(self.folder), "recording.keep": "all"} for case in cases]
         return [
             read_variants(self.study, each, [one | {"metrics": _metrics(each)} for one in changes], labels)
             for each in self.candidates

@@ -63,8 +63,8 @@ class Space:
         """Return the places nearest to a place, without itself."""
         ways = self.distance[place, self.vertex].copy()
         ways[place] = np.inf
-        order = np.argsort(ways, kind="stable")[:count]
-        return order[np.isfinite(ways[order])]
+        order: Int = np.argsort(ways, kind="stable")[:count]
+        return np.extract(np.isfinite(ways[order]), order)
 
     def place_of(self, x: float, y: float, level: int) -> int:
         """Return the place at a position, or the nearest one on its level."""

@@ -73,8 +73,9 @@ def describe_parameters(parcel: Mapping[str, Any], texts: Sequence[str]) -> list
     if texts:
         return [attrs.asdict(_named(config, text)) for text in texts]
     found = []
-    for field in attrs.fields(type(config.controller)) if config.controller is not None else ():
-        value = _default(config.controller, field)
+    controller: Any = config.controller
+    for field in attrs.fields(type(controller)) if controller is not None else ():
+        value = _default(controller, field)
         if type(value) is float and value > 0:
             found.append(attrs.asdict(_parameter(f"controller.{field.alias}", field, value, "")))
     return found
@@ -119,7 +120,7 @@ def _parameter(key: str, field: Any, default: Any, values: str) -> Parameter:
         low, high = (float(found[1]), float(found[2])) if values and found else _range(key, default, allows)
         if low >= high:
             raise InputError(f"--vary {key}: the range {low:g}..{high:g} is empty")
-        default = (low if type(default) is not int else int(low)) if default is None else default
+        default = low if default is None else default
         return Parameter(key=key, default=default, low=low, high=high, log=low > 0)
     if len(choices) < 2:
         raise InputError(f"--vary {key}: give two values or more, or a range such as 0.5..4")

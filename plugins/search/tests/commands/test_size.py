@@ -14,7 +14,7 @@ fleet: {robot: turtlebot3_burger, lidar: none}
 tasks: {plugin: poisson, rate: 1, service: 10 s}
 assigner: hungarian
 planner: {plugin: rolling_horizon, planner: pibt}
-limits: {execution: 4 min, iterations: 5}
+limits: {execution: 3 min, iterations: 5}
 control_rate: 1
 metrics: [execution, tasks]
 recording: {keep: none}
@@ -30,17 +30,17 @@ def floor(mrpbench):
     return mrpbench
 
 
-def test_robots_are_added_until_the_orders_are_served(floor):
-    words = ("size", "floor.yaml", "--orders", "240/h", "--p95", "3min", "--budget", "9runs", "--json")
+def test_robots_are_added_until_the_budget_is_spent(floor):
+    words = ("size", "floor.yaml", "--orders", "360/h", "--p95", "3min", "--budget", "6runs", "--json")
     code, output, errors = floor(*words)
+    assert code == 1, errors
     answer = json.loads(output)
-    low, high = answer["interval"]
     verdicts = {fleet["robots"]: fleet["verdict"] for fleet in answer["fleets"]}
-    assert verdicts[1] == "does not"  # an order takes 10 s and the way, and there are four a minute
-    assert low > 1
-    assert verdicts[high] == "serves", errors
-    assert answer["answer"].startswith(f"floor: {high} robots serve 240/h orders within 3min (p95 ")
-    assert code == int(low != high)
+    assert list(verdicts) == [1, 2]
+    assert verdicts[1] == "does not"  # an order takes 10 s and the way, and there are six a minute
+    assert answer["interval"] == [2 + (verdicts[2] == "does not"), None]
+    assert answer["ended"] == "the budget is spent"
+    assert answer["answer"].startswith("floor: up to 2 robots no fleet is shown to serve 360/h orders within 3min: ")
     code, again, errors = floor(*words)
     assert again == output
     assert "[1/" not in errors
