@@ -54,9 +54,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         " wrong, 130 interrupted (the same command continues)."
     )
     add_search(parser, "results/NAME-tune")
-    goal = {"action": "append", "default": [], "metavar": "COLUMN"}
-    parser.add_argument("--minimize", help="objective; with two objectives, a Pareto front", **goal)
-    parser.add_argument("--maximize", help="as --minimize", **goal)
+    for option in ("--minimize", "--maximize"):
+        parser.add_argument(
+            option, action="append", default=[], metavar="COLUMN", help="objective; two objectives give a Pareto front"
+        )
     parser.add_argument(
         "--subject-to",
         action="append",

@@ -25,18 +25,17 @@ def nav2_file(point: StudyRun) -> dict[str, Any] | None:
 
 def nav2_content(parcel: Mapping[str, Any]) -> dict[str, Any] | None:
     """In a worker process: see `nav2_file`."""
-    controller = unpack(parcel).controller
+    controller: Any = unpack(parcel).controller
     plugin = getattr(type(controller), "nav2_plugin", None)
     if plugin is None or not hasattr(controller, "read"):
         return None
     settled = controller.read()[0]
     names = [field.name for field in attrs.fields(type(controller)) if "nav2" in field.metadata]
     values = {name.removesuffix("_"): settled[name] for name in names if settled.get(name) is not None}
-    document = load(controller.nav2).data if controller.nav2 is not None else None
-    if document is None:
+    if controller.nav2 is None:
         block = {"plugin": plugin, **_inner(controller), **values}
         return {"controller_server": {"ros__parameters": {"controller_plugins": [ID], ID: block}}}
-    document = copy.deepcopy(document)
+    document: dict[str, Any] = copy.deepcopy(load(controller.nav2).data)
     for block in _blocks(document, plugin):
         block.update(values)
     return document

@@ -64,7 +64,8 @@ class Search:
     def __attrs_post_init__(self) -> None:
         optuna.logging.set_verbosity(optuna.logging.WARNING)
         sampler = optuna.samplers.TPESampler(seed=self.seed)
-        directions = ["minimize" if direction(column) < 0 else "maximize" for column in self.objectives]
+        minimize, maximize = optuna.study.StudyDirection.MINIMIZE, optuna.study.StudyDirection.MAXIMIZE
+        directions = [minimize if direction(column) < 0 else maximize for column in self.objectives]
         self._study = optuna.create_study(sampler=sampler, directions=directions)
         self._study.enqueue_trial({each.key: each.default for each in self.parameters})
 

@@ -30,7 +30,8 @@ simulator: none
 metrics: [planning]
 """
 RANDOM = 364
-"""Random seeds that it takes to find the fault: 11 of the seeds 0 to 3999 do."""
+"""Random seeds that it takes to find the fault, in the mean: 11 of the seeds 0 to 3999 do. 20 searches take 56 in the
+mean and 41 in the median; `make hunts` counts them."""
 
 
 @pytest.fixture
@@ -44,7 +45,7 @@ def hall(mrpbench):
 
 
 def test_a_fault_at_one_junction_is_found_shrunk_and_repeated(hall):
-    words = ("hunt", "hall.yaml", "--for", "invalid", "--most", "1", "--budget", f"{RANDOM // 5 + 40}runs", "--json")
+    words = ("hunt", "hall.yaml", "--for", "invalid", "--most", "1", "--seed", "6", "--budget", "60runs", "--json")
     code, output, errors = hall(*words)
     assert code == 1, errors
     answer = json.loads(output)
