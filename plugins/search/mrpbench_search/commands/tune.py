@@ -3,8 +3,9 @@
 import argparse
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+import attrs
 import yaml
 
 from mrpbench_core.api.metric import Column
@@ -37,6 +38,9 @@ from mrpbench_search.tuning.constraints import read_constraints
 from mrpbench_search.tuning.evaluation import Evaluation, Sample, Setting
 from mrpbench_search.tuning.nav2 import nav2_file, without_nav2, write_nav2
 from mrpbench_search.tuning.parameters import read_parameters
+
+if TYPE_CHECKING:
+    from mrpbench_search.tuning.search import Search
 
 LEAST_HELD_OUT = 6
 """Pairs below which no test is significant."""
@@ -87,7 +91,7 @@ def run(arguments: argparse.Namespace) -> int:
     """Tune, and print what is shown."""
     if not has("optuna"):
         raise InputError("tuning needs Optuna", hint="`pip install 'mrpbench-search[tune]'`")
-    from mrpbench_search.tuning.search import Search
+    from mrpbench_search.tuning.search import Search  # which imports Optuna
 
     file, overrides = study_of(arguments)
     if arguments.settings < 2:
@@ -122,8 +126,8 @@ def run(arguments: argparse.Namespace) -> int:
             end = search.run(arguments.settings)
             requests.budget = Budget()
             found = _confirmed(search, evaluation, held_out, conditions)
-            _write(found, study, points[0], out, objectives)
-    seeds = len({seed for seed, _ in held_out})
+            seeds = len({seed for seed, _ in held_out})
+            _write(found, study, points[0], out, [sentence(study.name, [each], objectives, seeds, 0) for each in found])
     said = sentence(study.name, found, objectives, seeds, len(search.trials))
     if arguments.json:
         print_json(
@@ -191,7 +195,7 @@ def _condition(study: StudyRuns, point: StudyRun, text: str) -> Setting:
 
 
 def _confirmed(
-    search: Any, evaluation: Evaluation, held_out: Sequence[Sample], conditions: Sequence[Setting]
+    search: "Search", evaluation: Evaluation, held_out: Sequence[Sample], conditions: Sequence[Setting]
 ) -> list[Tuned]:
     """The best settings with what held-out samples show; [] if none is better than the defaults on training seeds."""
     found = []
@@ -202,13 +206,7 @@ def _confirmed(
             matters = {row.key: trial.setting[row.key] for row in rows if row.loss is not None}
             compared = []
             for condition in ({}, *conditions):
-                elsewhere = Evaluation(
-                    study=evaluation.study,
-                    point=evaluation.point,
-                    columns=evaluation.columns,
-                    requests=evaluation.requests,
-                    keep=condition,
-                )
+                elsewhere = attrs.evolve(evaluation, keep=condition)
                 compared.append(compare_held_out(matters, elsewhere, held_out, search.objectives, search.constraints))
         except SearchEnded as end:
             raise InputError(str(end)) from None
@@ -216,29 +214,23 @@ def _confirmed(
     return found
 
 
-def _write(found: Sequence[Tuned], study: StudyRuns, point: StudyRun, out: Path, objectives: Sequence[Column]) -> None:
+def _write(found: Sequence[Tuned], study: StudyRuns, point: StudyRun, out: Path, titles: Sequence[str]) -> None:
     """Write each setting as a study, and as a Nav2 parameter file if Nav2 has its controller."""
-    for number, each in enumerate(found, start=1):
+    for number, (each, title) in enumerate(zip(found, titles, strict=True), start=1):
         folder = out / "tuned" if len(found) == 1 else out / "tuned" / str(number)
         folder.mkdir(parents=True, exist_ok=True)
         (tuned,) = read_variants(study, point, [each.setting], [{}]).runs
         config = brief_config(tuned, folder) | {"name": f"{study.name}-tuned"}
-        title = sentence(study.name, [each], objectives[:1], 0, 0).partition(": ")[2]
         if any(key.startswith("controller.") for key in each.setting) and (content := nav2_file(tuned)):
             file = folder / "nav2.yaml"
-            write_nav2(file, content, f"written by `mrpbench tune`: {_where(title)}")
+            write_nav2(file, content, f"mrpbench tune {title}")
             each.files["nav2"] = str(file)
             config["controller"] = without_nav2(config["controller"], folder, file)
-        seeds = list(dict.fromkeys(one.canonical["seed"] for one in study.runs))
         config.pop("seed", None)
-        config["matrix"] = {"seed": seeds}
+        config["matrix"] = {"seed": list(dict.fromkeys(one.canonical["seed"] for one in study.runs))}
         text = yaml.safe_dump(config, sort_keys=False, allow_unicode=True)
         replace_file(folder / "study.yaml", text.encode())
         each.files["study"] = str(folder / "study.yaml")
-
-
-def _where(title: str) -> str:
-    return title.replace(" on 0 held-out seeds", "")
 
 
 def _print(

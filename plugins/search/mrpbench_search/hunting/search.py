@@ -9,6 +9,7 @@ from collections.abc import Callable
 import attrs
 import numpy as np
 
+from mrpbench_core.files.text import counted
 from mrpbench_search.asking.requests import SearchEnded
 from mrpbench_search.hunting.cases import Case
 from mrpbench_search.hunting.moves import Moves
@@ -99,7 +100,7 @@ class Hunt:
 
         failure.smallest, failure.is_smallest = shrink(failure.first, self.runs, same)
         failure.reason = self.runs.signature(failure.smallest, failure.kind)[1]
-        self.announce(f"smallest case: {failure.smallest.case.robots} robots: {failure.reason}")
+        self.announce(f"smallest case: {counted(failure.smallest.case.robots, 'robot')}: {failure.reason}")
 
     def _repeat(self, failure: Failure) -> None:
         """Run the smallest case again with other noise."""
