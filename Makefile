@@ -85,6 +85,9 @@ pages: install ## do what every page of the documentation says, in empty folders
 
 SANITIZED := build/sanitized
 CHECKED = LD_PRELOAD="$(shell c++ -print-file-name=libasan.so) $(shell c++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 $(SANITIZED)/bin/python
+hunts: install ## hunt for three planted faults, and count the runs until each is found (an hour)
+	$(BIN)/python plugins/search/tests/hunting/soak_hunt.py 10 300
+
 rotations: install ## let rings of robots rotate 100,000 times in simulators and count contacts (two hours)
 	$(BIN)/python tests/builtin/dispatchers/soak_rotations.py 100000 1
 

@@ -49,7 +49,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-replay": {"mrpbench.commands": ("view",)},
     "mrpbench-scaffold": {"mrpbench.commands": ("init", "new-plugin")},
     "mrpbench-world": {"mrpbench.commands": ("world",)},
-    "mrpbench-search": {"mrpbench.commands": ("choose", "evidence", "saturate")},
+    "mrpbench-search": {"mrpbench.commands": ("choose", "evidence", "hunt", "saturate", "size", "tune")},
     "mrpbench-assigners-ortools": {"mrpbench.assigners": ("ortools_mip", "ortools_sat")},
     "mrpbench-bridges-ros2": {"mrpbench.navigators": ("ros2",), "mrpbench.hooks": ("ros2",)},
     "mrpbench-executors-dask": {"mrpbench.executors": ("dask",)},

@@ -97,10 +97,10 @@ def test_no_distribution_replaces_a_command_of_the_core(mrpbench, install):
     assert "\ncommand 'plugins' of thief 1.0 is not used: mrpbench-core has a command of this name\n" in output
 
 
-@pytest.mark.parametrize("name", ["publish", "verify", "site", "analyze", "choose", "saturate"])
+@pytest.mark.parametrize("name", ["publish", "verify", "site", "analyze", "choose", "hunt"])
 def test_a_command_of_a_distribution_that_is_not_installed_names_it(mrpbench, monkeypatch, name):
     monkeypatch.setattr(metadata, "entry_points", lambda **_: ())
-    owners = {"analyze": "analysis", "choose": "search", "saturate": "search"}
+    owners = {"analyze": "analysis", "choose": "search", "hunt": "search"}
     owner = f"mrpbench-{owners.get(name, 'publish')}"
     package = "'mrpbench[search]'" if owner == "mrpbench-search" else "mrpbench"
     said = f"no command is called {name!r} ({owner} has it: `pip install {package}`)\n"

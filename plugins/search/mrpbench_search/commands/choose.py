@@ -6,22 +6,17 @@ from pathlib import Path
 
 import attrs
 
-from mrpbench_core.api.metric import Column
 from mrpbench_core.cli.input.arguments import split_names
 from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.engine.loading.runs import StudyRuns
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.suggestions import did_you_mean
-from mrpbench_core.report.reading.columns import describe_columns, direction
 from mrpbench_search.asking.arguments import add_search, searching, study_of
 from mrpbench_search.asking.requests import read_whole_study
 from mrpbench_search.choosing.answer import results_of, sentence, table, trend
 from mrpbench_search.choosing.candidates import CHOICES, find_candidates
+from mrpbench_search.choosing.metrics import metric_of
 from mrpbench_search.choosing.search import Rules, SettingRace, run_races, start_races
-
-DEFAULT_METRICS = ("tasks.per_hour", "execution.duration_s", "planning.sum_of_costs")
-"""The metric of a race is the first of these that the study measures and that its runs can have."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -61,30 +56,13 @@ def run(arguments: argparse.Namespace) -> int:
             raise InputError(f"{name} {value:g}: between 0 and 1")
     with slots_of_this_process():
         study = read_whole_study(file, overrides)
-        rules = Rules(column=_column(study, arguments.metric), level=arguments.error, margin=arguments.margin)
+        rules = Rules(column=metric_of(study, arguments.metric), level=arguments.error, margin=arguments.margin)
         races = start_races(find_candidates(study, split_names(arguments.candidates) or CHOICES), rules)
         out = Path(arguments.out or f"results/{study.name}")
         with searching(arguments, out, overrides) as requests:
             end = run_races(races, study, requests, rules, print)
     _print(study, races, rules, len(requests.asked), end, out, arguments.json)
     return int(end is not None or any(each.race.open for each in races))
-
-
-def _column(study: StudyRuns, name: str | None) -> Column:
-    known = describe_columns(study.columns)
-    plans_only = all(point.canonical["simulator"] in (None, "none") for point in study.runs)
-    if name is None:
-        possible = DEFAULT_METRICS[-1:] if plans_only else DEFAULT_METRICS
-        name = next((column for column in possible if column in study.columns), None)
-        if name is None:
-            raise InputError(
-                f"--metric: the study measures none of {', '.join(possible)}", hint="name a column of its metrics"
-            )
-    if name not in known:
-        raise InputError(f"--metric {name}: the study has no such column", hint=did_you_mean(name, list(known)))
-    if not direction(known[name]):
-        raise InputError(f"--metric {name}: neither more nor less of it is better")
-    return known[name]
 
 
 def _print(

@@ -1,0 +1,1 @@
+"""The smallest fleet that serves a stream of orders."""

@@ -1,0 +1,1 @@
+"""The search for better values of options, shown on seeds that the search has not had."""

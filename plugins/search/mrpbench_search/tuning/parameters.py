@@ -1,0 +1,161 @@
+"""The parameters of a tuning: options with their defaults and ranges.
+
+Without a stated range a number goes from a quarter to four times its default on a logarithmic scale, as far as its
+option allows, and an option with few values takes each of them.
+"""
+
+import math
+import re
+import typing
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import attrs
+
+from mrpbench_core.config.unpacking import unpack
+from mrpbench_core.engine.loading.runs import StudyRun
+from mrpbench_core.engine.processes.call import in_worker
+from mrpbench_core.files.errors import InputError
+from mrpbench_core.files.suggestions import did_you_mean
+
+FACTOR = 4.0
+"""Between the default of a number and the ends of its range."""
+_RANGE = re.compile(r"(-?[\d.]+(?:e-?\d+)?)\.\.(-?[\d.]+(?:e-?\d+)?)")
+
+
+@attrs.frozen(kw_only=True)
+class Parameter:
+    """An option that is varied."""
+
+    key: str
+    """Dotted, as in a study."""
+    default: Any
+    low: float = math.nan
+    """Of numbers."""
+    high: float = math.nan
+    log: bool = False
+    choices: tuple[Any, ...] = ()
+    """Of others."""
+
+    @property
+    def whole(self) -> bool:
+        """It is a whole number."""
+        return type(self.default) is int and not self.choices
+
+    def __str__(self) -> str:
+        if self.choices:
+            return f"{self.key}={','.join(map(str, self.choices))}"
+        return f"{self.key}={self.low:g}..{self.high:g}"
+
+
+def read_parameters(point: StudyRun, texts: Sequence[str]) -> list[Parameter]:
+    """Return the parameters that a user names, or the real numbers of the controller.
+
+    Args:
+        point: a run of the study; gives the defaults.
+        texts: `controller.k_phi`, `controller.k_phi=0.5..4` or `planner.order=given,longest_first`.
+
+    Raises:
+        InputError: an option does not exist, cannot vary, or has no range of its own.
+    """
+    keys = [text.partition("=")[0] for text in texts]
+    if repeated := [key for key in keys if keys.count(key) > 1]:
+        raise InputError(f"--vary {repeated[0]}: named twice")
+    found = in_worker("the options cannot be read", describe_parameters, point.parcel, list(texts))
+    if not found:
+        raise InputError("--vary: the controller has no numbers with defaults", hint="name options to vary")
+    return [Parameter(**{**each, "choices": tuple(each["choices"])}) for each in found]
+
+
+def describe_parameters(parcel: Mapping[str, Any], texts: Sequence[str]) -> list[dict[str, Any]]:
+    """In a worker process: the parameters as plain data; see `read_parameters`."""
+    config = unpack(parcel)
+    if texts:
+        return [attrs.asdict(_named(config, text)) for text in texts]
+    found = []
+    controller: Any = config.controller
+    for field in attrs.fields(type(controller)) if controller is not None else ():
+        value = _default(controller, field)
+        if type(value) is float and value > 0:
+            found.append(attrs.asdict(_parameter(f"controller.{field.alias}", field, value, "")))
+    return found
+
+
+def _named(config: Any, text: str) -> Parameter:
+    key, _, values = text.partition("=")
+    owner, steps = config, key.strip().split(".")
+    for step in steps[:-1]:
+        owner = getattr(owner, step, None)
+    fields = {field.alias: field for field in attrs.fields(type(owner))} if attrs.has(type(owner)) else {}
+    if steps[-1] not in fields:
+        hint = did_you_mean(steps[-1], list(fields)) if fields else "e.g. controller.k_phi"
+        raise InputError(f"--vary {key}: the study has no such option", hint=hint)
+    field = fields[steps[-1]]
+    return _parameter(key.strip(), field, _default(owner, field), values.strip())
+
+
+def _default(owner: Any, field: Any) -> Any:
+    """The value of an option in the study; where it is left to Nav2, that of its file or the default of Nav2."""
+    value = getattr(owner, field.name)
+    if value is None and "nav2" in field.metadata:
+        value = owner.read()[0].get(field.name) if hasattr(owner, "read") else field.metadata["nav2"]
+    return value
+
+
+def _parameter(key: str, field: Any, default: Any, values: str) -> Parameter:
+    def allows(value: Any) -> bool:
+        try:
+            if field.validator is not None:
+                field.validator(None, field, value)
+        except (ValueError, TypeError):
+            return False
+        return True
+
+    literals = _literals(field.type)
+    if values and (found := _RANGE.fullmatch(values)) is None:
+        choices = tuple(_word(word.strip(), default) for word in values.split(","))
+    elif not values and (isinstance(default, bool) or literals):
+        choices = literals or (False, True)
+    else:
+        low, high = (float(found[1]), float(found[2])) if values and found else _range(key, default, allows)
+        if low >= high:
+            raise InputError(f"--vary {key}: the range {low:g}..{high:g} is empty")
+        default = low if default is None else default
+        return Parameter(key=key, default=default, low=low, high=high, log=low > 0)
+    if len(choices) < 2:
+        raise InputError(f"--vary {key}: give two values or more, or a range such as 0.5..4")
+    return Parameter(key=key, default=default, choices=choices)
+
+
+def _literals(kind: Any) -> tuple[Any, ...]:
+    """The values of a choice, without None."""
+    members = typing.get_args(kind)
+    if typing.get_origin(kind) is typing.Literal:
+        return members
+    return next((values for member in members if (values := _literals(member))), ())
+
+
+def _word(text: str, default: Any) -> Any:
+    if isinstance(default, bool):
+        return {"true": True, "false": False}.get(text.lower(), text)
+    try:
+        return int(text) if type(default) is int else float(text)
+    except ValueError:
+        return text
+
+
+def _range(key: str, default: Any, allows: Callable[[Any], bool]) -> tuple[float, float]:
+    """From a quarter to four times a positive default, as far as allowed."""
+    if isinstance(default, bool) or not isinstance(default, int | float) or default <= 0:
+        raise InputError(f"--vary {key}: its default is {default!r}, so give a range", hint=f"e.g. {key}=0.1..1")
+    whole = type(default) is int
+
+    def bound(far: float) -> float:
+        near = float(default)
+        for _ in range(40):
+            if allows(round(far) if whole else far):
+                return float(round(far)) if whole else float(f"{far:.4g}")
+            far = (near + far) / 2
+        return near
+
+    return bound(default / FACTOR), bound(default * FACTOR)
