@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_policies.fleet_state import FleetState
-from mrpbench_policies.maps import FAR, Maps
+from mrpbench_policies.maps import FAR
 from mrpbench_policies.observations.observation import Field, Observation, agents
 
 
@@ -19,7 +19,7 @@ class CostToGo(Observation):
     robot with several such cells counting in parts; the robot itself does not count.
     """
 
-    def fields(self, maps: Maps) -> Mapping[str, Field]:  # noqa: ARG002
+    def fields(self, shape: tuple[int, int]) -> Mapping[str, Field]:  # noqa: ARG002
         """Return one array, `observation`."""
         return {"observation": Field("f4", (4, self.side, self.side), -1.0, 4.0)}
 

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_policies.fleet_state import FleetState
-from mrpbench_policies.maps import Maps
 
 
 class Field(NamedTuple):
@@ -33,8 +32,8 @@ class Observation(ABC):
         self.radius, self.side = radius, 2 * radius + 1
 
     @abstractmethod
-    def fields(self, maps: Maps) -> Mapping[str, Field]:
-        """Return the arrays of the observation of one robot, by name."""
+    def fields(self, shape: tuple[int, int]) -> Mapping[str, Field]:
+        """Return the arrays of the observation of one robot, by name, on maps of a shape (rows, columns)."""
 
     @abstractmethod
     def observe(self, state: FleetState) -> Mapping[str, NDArray[Any]]:

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_policies.fleet_state import FleetState
-from mrpbench_policies.maps import Maps
 from mrpbench_policies.observations.observation import Field, Observation, agents
 
 FARTHEST = 1024
@@ -21,7 +20,7 @@ class PogemaDefault(Observation):
     window where it lies outside.
     """
 
-    def fields(self, maps: Maps) -> Mapping[str, Field]:  # noqa: ARG002
+    def fields(self, shape: tuple[int, int]) -> Mapping[str, Field]:  # noqa: ARG002
         """Return one array, `observation`."""
         return {"observation": Field("f4", (3, self.side, self.side), 0.0, 1.0)}
 
@@ -40,7 +39,7 @@ class PogemaDefault(Observation):
 class PogemaPomapf(Observation):
     """`POMAPF`: the windows `obstacles` and `agents`, and `xy` and `target_xy` relative to where the robot started."""
 
-    def fields(self, maps: Maps) -> Mapping[str, Field]:  # noqa: ARG002
+    def fields(self, shape: tuple[int, int]) -> Mapping[str, Field]:  # noqa: ARG002
         """Return four arrays."""
         window, place = Field("f4", (self.side, self.side), 0.0, 1.0), Field("i8", (2,), -FARTHEST, FARTHEST)
         return {"obstacles": window, "agents": window, "xy": place, "target_xy": place}
@@ -60,12 +59,12 @@ class PogemaPomapf(Observation):
 class PogemaMapf(PogemaPomapf):
     """`MAPF`: `POMAPF`, and the whole map with a margin of `radius` cells, and places on it."""
 
-    def fields(self, maps: Maps) -> Mapping[str, Field]:
+    def fields(self, shape: tuple[int, int]) -> Mapping[str, Field]:
         """Return seven arrays."""
-        whole = Field("f8", (maps.height, maps.width), 0.0, 1.0)
+        whole = Field("f8", (shape[0] + 2 * self.radius, shape[1] + 2 * self.radius), 0.0, 1.0)
         place = Field("i8", (2,), 0, FARTHEST)
         return {
-            **super().fields(maps),
+            **super().fields(shape),
             "global_obstacles": whole,
             "global_xy": place,
             "global_target_xy": place,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from mrpbench_core.api import Int
 from mrpbench_policies.fleet_state import MEMORY, FleetState
-from mrpbench_policies.maps import FAR, Maps
+from mrpbench_policies.maps import FAR
 from mrpbench_policies.observations.observation import Field, Observation
 
 NEAREST = 13
@@ -36,7 +36,7 @@ class MapfGptTokens(Observation):
         if self.side**2 + NEAREST * PER_ROBOT > LENGTH:
             raise ValueError("tokens of MAPF-GPT have windows of a radius of at most 5")
 
-    def fields(self, maps: Maps) -> Mapping[str, Field]:  # noqa: ARG002
+    def fields(self, shape: tuple[int, int]) -> Mapping[str, Field]:  # noqa: ARG002
         """Return one array, `tokens`."""
         return {"tokens": Field("i8", (LENGTH,), 0, PADDING)}
 
