@@ -41,6 +41,8 @@ class Maps:
         """bool[b*size]: walls, and the ring around each map. Beyond it the margin is free, as in POGEMA."""
         self.offset: Int = MOVES[:, 0] * self.width + MOVES[:, 1]
         """i8[5]: what each action adds to a place."""
+        self._label: NDArray[np.int32] = np.full(len(self.blocked), -1, np.int32)
+        self._components: list[Int] = []
         self._distances: OrderedDict[int, NDArray[np.int32]] = OrderedDict()
 
     @cached_property
@@ -55,9 +57,23 @@ class Maps:
 
     def places(self, cells: Int) -> Int:
         """Return the places i8[b,n] of cells i8[b,n,2] (row, column)."""
-        base = np.arange(self.count)[:, None] * self.size
-        found: Int = base + (cells[..., 0] + self.margin) * self.width + cells[..., 1] + self.margin
+        return self.places_in(np.arange(self.count)[:, None], cells)
+
+    def places_in(self, environment: int | Int, cells: Int) -> Int:
+        """Return the places i8[...] of cells i8[...,2] (row, column) in an environment."""
+        found: Int = environment * self.size + (cells[..., 0] + self.margin) * self.width + cells[..., 1] + self.margin
         return found
+
+    def lay(self, environment: int, blocked: Bool) -> None:
+        """Replace the map of an environment by blocked cells bool[rows,columns]."""
+        rows, columns = self.shape
+        padded = self.blocked.reshape(self.count, self.height, self.width)[environment]
+        padded[self.margin : self.margin + rows, self.margin : self.margin + columns] = blocked
+        first, last = environment * self.size, (environment + 1) * self.size
+        self.obstacles[first:last] = self.blocked[first:last]
+        self._label[first:last] = -1
+        for goal in [goal for goal in self._distances if first <= goal < last]:
+            del self._distances[goal]
 
     def cells(self, places: Int) -> Int:
         """Return the cells i8[...,2] (row, column) of places i8[...]."""
@@ -84,6 +100,17 @@ class Maps:
         else:
             self._distances.move_to_end(goal)
         return known
+
+    def component(self, place: int) -> Int:
+        """Return the places i8[k] that can be reached from a place, itself included."""
+        number = int(self._label[place])
+        if number < 0:
+            base = place - place % self.size
+            cells = base + np.flatnonzero(self._flood(place) < FAR)
+            number = len(self._components)
+            self._label[cells] = number
+            self._components.append(cells)
+        return self._components[number]
 
     def _flood(self, goal: int) -> NDArray[np.int32]:
         base = goal - goal % self.size
