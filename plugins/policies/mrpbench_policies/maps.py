@@ -80,15 +80,15 @@ class Maps:
         row, column = np.divmod(places % self.size, self.width)
         return np.stack([row, column], axis=-1) - self.margin
 
+    def window_rows(self, places: Int, radius: int) -> Int:
+        """Return where the rows of windows around places i8[k] begin, i8[k,2r+1]; the radius r is at most the margin."""
+        first: Int = places - radius * (self.width + 1)
+        return first[:, None] + np.arange(2 * radius + 1) * self.width
+
     def windows(self, field: NDArray[np.float32], places: Int, radius: int) -> NDArray[np.float32]:
-        """Return f4[k,2r+1,2r+1] of a field f4[b*size] around places i8[k]; the radius r is at most the margin."""
+        """Return f4[k,2r+1,2r+1] of a field f4[b*size] around places i8[k]."""
         side = 2 * radius + 1
-        first = places - radius * (self.width + 1)
-        rows = first[:, None] + np.arange(side) * self.width
-        strips: NDArray[np.void] = np.ndarray(
-            len(field) - side + 1, np.dtype((np.void, 4 * side)), buffer=field.data, strides=(4,)
-        )  # one element is a whole row of a window
-        return strips[rows].view(np.float32).reshape(-1, side, side)
+        return strips(field, side)[self.window_rows(places, radius)].view(np.float32).reshape(-1, side, side)
 
     def distances(self, goal: int) -> NDArray[np.int32]:
         """Return the steps i4[size] from each cell of a map to a place on it, `FAR` where there is no way."""
@@ -123,9 +123,14 @@ class Maps:
             around = (front[:, None] + self.offset[1:]).ravel()
             around = around[open_cells[around]]
             open_cells[around] = False
-            front = np.unique(around) if step < 2 else _distinct(around, steps, step + 1)
+            front = _distinct(around, steps, step + 1)
             step += 1
         return steps
+
+
+def strips(field: NDArray[np.float32], length: int) -> NDArray[np.void]:
+    """Return a view of f4[k] whose elements are `length` values each, so that indexing copies them at once."""
+    return np.ndarray(len(field) - length + 1, np.dtype((np.void, 4 * length)), buffer=field.data, strides=(4,))
 
 
 def _distinct(cells: Int, scratch: NDArray[np.int32], value: int) -> Int:

@@ -51,6 +51,8 @@ class FleetParallelEnv(ParallelEnv[str, Any, int]):
         self.action_spaces = {agent: spaces.Discrete(5) for agent in self.possible_agents}
         self._steps: Steps | None = None
         self._seed = -1
+        self._acting: dict[str, int] = {}
+        """The indices of `agents`."""
 
     def observation_space(self, agent: str) -> spaces.Space[Any]:
         """Return the space of the observations of a robot, the same object each time."""
@@ -68,27 +70,31 @@ class FleetParallelEnv(ParallelEnv[str, Any, int]):
         self._steps = self._depth.begin([scene], self._observation.radius, self._seed)
         self._episodes = Episodes(self._task, self._steps.state, [self._seed])
         self.agents = list(self.possible_agents)
+        self._acting = {agent: robot for robot, agent in enumerate(self.agents)}
         return self._observations(), self._infos()
 
     def step(self, actions: Mapping[str, int]) -> tuple[Any, Any, Any, Any, Any]:
         """Let a step pass; return observations, rewards, terminations, truncations and infos of the robots that acted."""
         if self._steps is None:
             raise RuntimeError("call `reset` before `step`")
-        chosen = np.array([[int(actions.get(agent, 0)) for agent in self.possible_agents]], np.int64)
+        chosen = np.array([[actions.get(agent, 0) for agent in self.possible_agents]], np.int64)
         if ((chosen < 0) | (chosen > 4)).any():
             raise ValueError("actions are 0 to 4")
         self._steps.step(chosen)
         rewards, terminated, truncated = self._episodes.after_step()
-        acting = {agent: self.possible_agents.index(agent) for agent in self.agents}
+        acting = self._acting
         observations, infos = self._observations(), self._infos()
-        ends = {agent: bool(terminated[0, robot]) for agent, robot in acting.items()}
-        cut = {agent: bool(truncated[0]) and not ends[agent] for agent in acting}
-        if truncated[0] or all(ends.values()):
+        robots, late = [*acting.values()], bool(truncated[0])
+        ends = dict(zip(acting, terminated[0, robots].tolist(), strict=True))
+        cut = {agent: late and not end for agent, end in ends.items()}
+        if late or all(ends.values()):
             measures = self._episodes.measures(0)
             for agent in acting:
                 infos[agent]["metrics"] = measures
-        given = {agent: float(rewards[0, robot]) for agent, robot in acting.items()}
-        self.agents = [agent for agent in self.agents if not (ends[agent] or truncated[0])]
+        given = dict(zip(acting, rewards[0, robots].tolist(), strict=True))
+        if over := {agent for agent in acting if ends[agent] or cut[agent]}:
+            self.agents = [agent for agent in self.agents if agent not in over]
+            self._acting = {agent: acting[agent] for agent in self.agents}
         return observations, given, ends, cut, infos
 
     def state(self) -> np.ndarray:
@@ -125,24 +131,15 @@ class FleetParallelEnv(ParallelEnv[str, Any, int]):
 
     def _observations(self) -> dict[str, Any]:
         assert self._steps is not None
-        rows = split(self._observation.observe(self._steps.state))
-        return {agent: row for agent, row in zip(self.possible_agents, rows, strict=True) if agent in self._acting}
-
-    @property
-    def _acting(self) -> set[str]:
-        return set(self.agents)
+        rows = list(split(self._observation.observe(self._steps.state)))
+        return {agent: rows[robot] for agent, robot in self._acting.items()}
 
     def _infos(self) -> dict[str, dict[str, Any]]:
         assert self._steps is not None
         fleet, moving = self._steps.state, self._steps.moving[0]
         free = ~fleet.maps.blocked[fleet.place[0][:, None] + fleet.maps.offset]
-        mask = np.where(moving[:, None], np.arange(5) == 0, free).astype(np.int8)
-        acting = self._acting
-        return {
-            agent: {"action_mask": mask[robot]}
-            for robot, agent in enumerate(self.possible_agents)
-            if agent in acting
-        }
+        mask = list(np.where(moving[:, None], np.arange(5) == 0, free).astype(np.int8))
+        return {agent: {"action_mask": mask[robot]} for agent, robot in self._acting.items()}
 
 
 def parallel_env(

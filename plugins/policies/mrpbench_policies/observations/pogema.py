@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_policies.fleet_state import FleetState
+from mrpbench_policies.maps import strips
 from mrpbench_policies.observations.observation import Field, Observation, agents
 
 FARTHEST = 1024
@@ -25,15 +26,22 @@ class PogemaDefault(Observation):
         return {"observation": Field("f4", (3, self.side, self.side), 0.0, 1.0)}
 
     def observe(self, state: FleetState) -> Mapping[str, NDArray[Any]]:
-        """Return the windows of all robots."""
-        maps, place = state.maps, state.place.ravel()
-        rows = np.zeros((len(place), 3, self.side, self.side), np.float32)
-        rows[:, 0] = maps.windows(maps.obstacles, place, self.radius)
-        rows[:, 1] = maps.windows(agents(state), place, self.radius)
-        ahead = maps.cells(state.goal.ravel()) - maps.cells(place)
-        row, column = np.clip(ahead, -self.radius, self.radius).T + self.radius
-        rows[np.arange(len(place)), 2, row, column] = 1.0
-        return {"observation": rows}
+        """Return the windows of all robots.
+
+        All are copied at once, row by row, from one canvas: obstacles, robots, and rows with a 1 or without.
+        """
+        maps, place, radius, side = state.maps, state.place.ravel(), self.radius, self.side
+        size = len(maps.blocked)
+        canvas = np.empty(2 * size + 3 * side, np.float32)
+        canvas[:size], canvas[size : 2 * size], canvas[2 * size :] = maps.obstacles, agents(state), 0.0
+        canvas[2 * size + side - 1] = 1.0
+        goal = np.clip(maps.cells(state.goal.ravel()) - maps.cells(place), -radius, radius) + radius
+        rows = np.empty((len(place), 3, side), np.int64)
+        rows[:, 0] = maps.window_rows(place, radius)
+        rows[:, 1] = rows[:, 0] + size
+        rows[:, 2] = 2 * size + 2 * side  # nothing but 0
+        rows[np.arange(len(place)), 2, goal[:, 0]] = 2 * size + side - 1 - goal[:, 1]
+        return {"observation": strips(canvas, side)[rows].view(np.float32).reshape(-1, 3, side, side)}
 
 
 class PogemaPomapf(Observation):
