@@ -1,12 +1,10 @@
 """Between roadmaps that are rasters and maps of cells: vertices become places, traces become paths."""
 
-
 import attrs
 import numpy as np
 
 from mrpbench_core.api import Int, Int32, Paths, Roadmap
 from mrpbench_policies.maps import Maps
-
 
 
 @attrs.frozen(kw_only=True, eq=False)
@@ -72,6 +70,4 @@ def paths_of(board: Board, trace: Int) -> Paths:
     leave = np.append(enter[1:], 0)
     ends = np.append(robot[1:] != robot[:-1], True) if len(robot) else np.zeros(0, bool)
     leave = np.where(ends, last[robot], leave[: len(robot)])
-    return Paths(
-        first=np.searchsorted(robot, np.arange(robots + 1)), edge=edge[robot, enter], enter=enter, leave=leave
-    )
+    return Paths(first=np.searchsorted(robot, np.arange(robots + 1)), edge=edge[robot, enter], enter=enter, leave=leave)

@@ -91,9 +91,9 @@ def soft(state: FleetState, wish: Int) -> Int:
     """Return where the robots are after a step, i8[b,n], if they want to be at places `wish` i8[b,n].
 
     Conflicts are resolved by the rule `soft` of POGEMA (Skrynnik et al., ICLR 2025): two robots that want to change
-    places stay. Of several that want one cell the first gets it. Whoever would come to a wall, or to the cell of a robot
-    that stays, stays as well. A robot may enter a cell in the step in which another leaves it, also in a ring. So no two
-    robots share a cell or meet on an edge (`following: allowed`).
+    places stay. Of several that want one cell the first gets it. Whoever would come to a wall, or to the cell of a
+    robot that stays, stays as well. A robot may enter a cell in the step in which another leaves it, also in a ring. So
+    no two robots share a cell or meet on an edge (`following: allowed`).
     """
     place, to = state.place.ravel(), wish.ravel()
     index = np.arange(len(place), dtype=np.int32)

@@ -81,9 +81,10 @@ class Maps:
         return np.stack([row, column], axis=-1) - self.margin
 
     def window_rows(self, places: Int, radius: int) -> Int:
-        """Return where the rows of windows around places i8[k] begin, i8[k,2r+1]; the radius r is at most the margin."""
-        first: Int = places - radius * (self.width + 1)
-        return first[:, None] + np.arange(2 * radius + 1) * self.width
+        """Return where the rows of windows around places i8[k] begin, i8[k,2r+1]; radius r is at most the margin."""
+        first = places - radius * (self.width + 1)
+        rows: Int = first[:, None] + np.arange(2 * radius + 1) * self.width
+        return rows
 
     def windows(self, field: NDArray[np.float32], places: Int, radius: int) -> NDArray[np.float32]:
         """Return f4[k,2r+1,2r+1] of a field f4[b*size] around places i8[k]."""
@@ -137,6 +138,6 @@ def _distinct(cells: Int, scratch: NDArray[np.int32], value: int) -> Int:
     """Return cells without repetition, by writing their indices into `scratch`, which then holds `value` there."""
     index = np.arange(len(cells))
     scratch[cells] = index
-    once = cells[scratch[cells] == index]
+    once: Int = cells[scratch[cells] == index]
     scratch[once] = value
     return once

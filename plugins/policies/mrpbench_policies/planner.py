@@ -208,15 +208,15 @@ class _Errands:
         goals = self._problem.goals[robot]
         if not goals:
             return at
-        options = goals[self._number[robot]]
+        options = goals[int(self._number[robot])]
         if len(options) == 1:
-            return options[0]
+            return int(options[0])
         free = [vertex for vertex in options if vertex not in taken] or list(options)
         if at in free:
             return at
         maps, place = self._board.maps, self._board.place
         table = maps.distances(int(place[at]))
-        return min(free, key=lambda vertex: (int(table[place[vertex]]), vertex))
+        return int(min(free, key=lambda vertex: (int(table[place[vertex]]), vertex)))
 
 
 def _statistics(rollout: Rollout) -> dict[str, float]:

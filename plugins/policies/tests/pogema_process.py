@@ -40,9 +40,7 @@ def main() -> None:
             answer = []
             for actions in value:
                 observations, rewards, terminated, truncated, infos = env.step(list(actions))
-                answer.append(
-                    (plain(observations), *places(), rewards, terminated, truncated, infos[0].get("metrics"))
-                )
+                answer.append((plain(observations), *places(), rewards, terminated, truncated, infos[0].get("metrics")))
         pickle.dump(answer, answers)
         answers.flush()
 

@@ -9,6 +9,7 @@ from mrpbench_policies.acting.onnx_model import OnnxModel
 from mrpbench_policies.acting.python_class import PythonClass
 from mrpbench_policies.observations import Observation
 
+
 def load(file: Path, observation: Observation, shape: tuple[int, int]) -> Acting:
     """Return the policy of a file: an ONNX model (`.onnx`), or the class `Policy` of a Python file (`.py`).
 

@@ -68,7 +68,7 @@ class OnnxModel(Acting):
         }
         try:
             choice, *memory = self._session.run(self._outputs, inputs | self.memory)
-        except Exception as error:
+        except Exception as error:  # noqa: BLE001 - onnxruntime has many
             raise InputError(f"onnxruntime fails: {_line(error)}", file=self._file) from None
         for name, array in zip(self._memory_of, memory, strict=True):
             wanted = self.memory[name]
@@ -88,15 +88,15 @@ class OnnxModel(Acting):
         self._require_batch(node)
         own = node.shape[1:]
         fits = len(own) == len(shape)
-        fits = fits and all(not isinstance(length, int) or length == want for length, want in zip(own, shape, strict=True))
+        fits = fits and all(length == want for length, want in zip(own, shape, strict=True) if isinstance(length, int))
         if not fits:
             message = f"has the input {node.name!r} {_shape(own)}; the observation is {_shape(shape)} for each robot"
             raise InputError(message, file=self._file, hint="see the options `observation` and `radius`")
 
     def _require_batch(self, node: Any) -> None:
         if not node.shape or isinstance(node.shape[0], int):
-            message = f"has the input {node.name!r} {_shape(node.shape)}, whose first axis is not that of any number of robots"
-            raise InputError(message, file=self._file, hint="export it with a dynamic first axis")
+            message = f"has the input {node.name!r} {_shape(node.shape)}, whose first axis is not dynamic"
+            raise InputError(message, file=self._file, hint="export it for any number of robots")
 
     def _zero(self, node: Any) -> np.ndarray:
         self._require_batch(node)
@@ -118,7 +118,7 @@ def _session(file: Path, content: bytes) -> Any:
     options.log_severity_level = 4  # faults are raised
     try:
         return onnxruntime.InferenceSession(content, options, providers=["CPUExecutionProvider"])
-    except Exception as error:
+    except Exception as error:  # noqa: BLE001 - onnxruntime has many
         raise InputError(f"is not an ONNX model that onnxruntime runs: {_line(error)}", file=file) from None
 
 

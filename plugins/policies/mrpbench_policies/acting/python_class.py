@@ -32,7 +32,8 @@ class PythonClass(Acting):
         if not isinstance(made, type) or not callable(getattr(made, "act", None)):
             raise InputError("defines no class `Policy` with a method `act`", file=file)
         self._class: Any = made
-        self._robots, self._policy = 0, None
+        self._robots = 0
+        self._policy: Any = None
 
     def begin(self, robots: int, seed: int) -> None:
         """Make a new policy."""

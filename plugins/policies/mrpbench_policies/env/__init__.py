@@ -1,4 +1,4 @@
-"""Environments in which policies learn: PettingZoo's parallel form, and Gymnasium's for whole fleets and batches of them.
+"""Environments in which policies learn: of PettingZoo (parallel), and of Gymnasium for fleets and batches of them.
 
 All have one interface in three depths: `grid`, `timed` (turns and delays) and `full_stack` (bodies).
 """

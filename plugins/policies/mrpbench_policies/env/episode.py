@@ -44,13 +44,13 @@ class Episodes:
         self._generators[environment] = np.random.default_rng([seed, 1])
 
     def after_step(self) -> tuple[Float, Bool, Bool]:
-        """Return rewards f8[b,n], and whether each robot terminated and each environment was truncated, bool[b,n], bool[b]."""
+        """Return rewards f8[b,n], which robots terminated, bool[b,n], and which environments are truncated, bool[b]."""
         state, task = self.state, self.task
         on_goal = state.on_goal & state.active
         self.elapsed += 1
         truncated = self.elapsed >= task.steps
         if task.on_target == "nothing":
-            done = on_goal.all(axis=1)
+            done: Bool = np.asarray(on_goal.all(axis=1))
             self._remember(on_goal)
             terminated = np.broadcast_to(done[:, None], on_goal.shape)
             self.reached = on_goal.astype(np.int64)

@@ -7,14 +7,15 @@ import numpy as np
 
 from mrpbench_core.api import (
     Estimate,
-    Float,
     FleetObservation,
     FleetView,
+    Float,
     Inputs,
     Instance,
     Int,
     Int32,
     Odometry,
+    Path,
     Paths,
     Plan,
     Problem,
@@ -31,9 +32,12 @@ from mrpbench_policies.env.scenes import Scene
 from mrpbench_policies.env.world_model import Depth, Steps, fleet_state
 
 
+NONE = np.zeros(0, np.int32)
+
+
 @attrs.frozen(kw_only=True)
 class FullStack(Depth):
-    """Robots with bodies. An action is the next cell; a step takes `seconds`, and a robot that is not there yet goes on.
+    """Robots with bodies. An action is the next cell; a step takes `seconds`, and robots that are not there yet go on.
 
     Every step adds the moves of the robots that have arrived to a plan, which the dispatcher of the run releases, and
     its navigator and controller drive in its simulator, as in any run. Robots never move in rings.
@@ -74,7 +78,7 @@ class FullStackSteps(Steps):
         self.moving = np.zeros((1, robots), bool)
         self._tick = self._count = self._revision = 0
         self._problem = open_problem(instance)
-        self._plan = Plan(paths=Paths(first=np.zeros(robots + 1, np.int64), edge=[], enter=[], leave=[]))
+        self._plan = Plan(paths=Paths.of([Path(edge=NONE, enter=NONE, leave=NONE)] * robots))
         self._released: Int32 = np.zeros(robots, np.int32)
         self.aborted = np.zeros(robots, bool)
         """bool[n]: robots that gave up since the last new move of any."""
@@ -199,5 +203,3 @@ def open_problem(instance: Instance) -> Problem:
         raise ValueError("the depth `full_stack` has no doors, lifts and mutexes")
     features = instance.problem.features | {Feature.HORIZON, Feature.COMMITMENTS, Feature.SINCE}
     return attrs.evolve(instance.problem, horizon=0, features=features)
-
-

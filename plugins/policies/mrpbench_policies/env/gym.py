@@ -17,8 +17,8 @@ from mrpbench_policies.observations import Observation, PogemaDefault
 class FleetVectorEnv(VectorEnv[Any, Any, Any]):
     """Many fleets at once, each an environment of Gymnasium's vector form.
 
-    Observations have the axes environment, robot, …; actions are i8[environments, robots]. The reward of an environment
-    is the mean of its robots', which `infos["rewards"]` f8[environments, robots] has. An environment terminates when all
+    Observations have the axes environment, robot, …; actions are i8[environments, robots]. An environment's reward
+    is the mean of its robots', which `infos["rewards"]` f8[environments, robots] has. It terminates when all
     of its robots have. `infos["moving"]` says which robots go on whatever their action. At the end of an episode
     `infos["metrics"]` has the metrics of POGEMA, NaN for the other environments. An environment whose episode has ended
     begins the next one in the next step, whose actions it ignores (`AutoresetMode.NEXT_STEP`).

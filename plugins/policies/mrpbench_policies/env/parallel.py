@@ -1,6 +1,6 @@
 """Environments in the parallel form of PettingZoo: robots are agents, which act all at once."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, Literal
 
@@ -18,7 +18,7 @@ from mrpbench_policies.env.world_model import Depth, Grid, Steps
 from mrpbench_policies.observations import Observation, PogemaDefault
 
 
-class FleetParallelEnv(ParallelEnv[str, Any, int]):
+class FleetParallelEnv(ParallelEnv[str, Any, int]):  # type: ignore[misc] # PettingZoo has no types
     """Robots `robot_0`, `robot_1`, … that go to their goals.
 
     Actions are 0 stay, 1 up, 2 down, 3 left, 4 right. `infos[agent]["action_mask"]` i1[5] says which have an effect: a
@@ -74,7 +74,7 @@ class FleetParallelEnv(ParallelEnv[str, Any, int]):
         return self._observations(), self._infos()
 
     def step(self, actions: Mapping[str, int]) -> tuple[Any, Any, Any, Any, Any]:
-        """Let a step pass; return observations, rewards, terminations, truncations and infos of the robots that acted."""
+        """Let a step pass; return observations, rewards, terminations, truncations and infos of robots that acted."""
         if self._steps is None:
             raise RuntimeError("call `reset` before `step`")
         chosen = np.array([[actions.get(agent, 0) for agent in self.possible_agents]], np.int64)
@@ -162,11 +162,13 @@ def parallel_env(
         InputError: see `StudyScenes`.
     """
     scenes = StudyScenes(study, [f"{name}={value}" for name, value in overrides.items()])
-    if depth == "full_stack":
-        depth = FullStack(config=scenes.config)
-    elif isinstance(depth, str):
-        known = {"grid": Grid, "timed": Timed}
-        if depth not in known:
-            raise InputError(f"there is no depth {depth!r}; known: grid, timed, full_stack")
-        depth = known[depth]()
-    return FleetParallelEnv(scenes, depth, task, observation)
+    if isinstance(depth, Depth):
+        return FleetParallelEnv(scenes, depth, task, observation)
+    depths: dict[str, Callable[[], Depth]] = {
+        "grid": Grid,
+        "timed": Timed,
+        "full_stack": lambda: FullStack(config=scenes.config),
+    }
+    if depth not in depths:
+        raise InputError(f"there is no depth {depth!r}", hint=f"known: {', '.join(depths)}")
+    return FleetParallelEnv(scenes, depths[depth](), task, observation)

@@ -16,12 +16,12 @@ def space_of(observation: Observation, shape: tuple[int, int], *rows: int) -> sp
     With `rows`, that of so many robots, or environments and robots.
     """
     fields = observation.fields(shape)
-    boxes = {name: _box(field, rows) for name, field in fields.items()}
+    boxes: dict[str, spaces.Space[Any]] = {name: _box(field, rows) for name, field in fields.items()}
     return next(iter(boxes.values())) if len(boxes) == 1 else spaces.Dict(boxes)
 
 
 def _box(field: Field, rows: tuple[int, ...]) -> spaces.Box:
-    return spaces.Box(field.low, field.high, (*rows, *field.shape), np.dtype(field.dtype))  # type: ignore[arg-type]
+    return spaces.Box(field.low, field.high, (*rows, *field.shape), np.dtype(field.dtype))
 
 
 def joined(arrays: Mapping[str, NDArray[Any]], *rows: int) -> Any:

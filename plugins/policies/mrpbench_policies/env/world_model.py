@@ -56,7 +56,7 @@ def fleet_state(scenes: Sequence[Scene], margin: int) -> FleetState:
 
 
 class Grid(Depth):
-    """Points that move one cell in a step, all at once, by the rule `soft`; see `mrpbench_policies.fleet_state.soft`."""
+    """Points that move one cell in a step, all at once, by the rule `mrpbench_policies.fleet_state.soft`."""
 
     def begin(self, scenes: Sequence[Scene], margin: int, seed: int) -> Steps:  # noqa: ARG002 - nothing is random
         """Put robots at their starts."""

@@ -1,5 +1,6 @@
-"""The observations of POGEMA 1.4 (Skrynnik et al., "POGEMA: A Benchmark Platform for Cooperative Multi-Agent Pathfinding",
-ICLR 2025), which tests compare with those of the package element by element.
+"""The observations of POGEMA 1.4, which tests compare with those of the package element by element.
+
+Skrynnik et al., "POGEMA: A Benchmark Platform for Cooperative Multi-Agent Pathfinding", ICLR 2025.
 """
 
 from collections.abc import Mapping

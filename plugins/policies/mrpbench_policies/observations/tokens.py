@@ -72,7 +72,8 @@ class MapfGptTokens(Observation):
         inside = others[(away <= self.radius).all(axis=1)]
         distance = np.abs(cell[inside] - cell[robot]).sum(axis=1)
         distance[inside == robot] = -1
-        return inside[np.argsort(distance, kind="stable")][:NEAREST]
+        nearest: Int = inside[np.argsort(distance, kind="stable")][:NEAREST]
+        return nearest
 
     def _ways(self, state: FleetState) -> tuple[Int, Int]:
         """Tokens i8[k,side*side] of cost-to-go, and of the mask i8[k] of the moves that lead nearer."""

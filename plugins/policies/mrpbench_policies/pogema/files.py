@@ -1,5 +1,6 @@
 """The files of POGEMA's benchmark: maps as text, and lists of starts and goals."""
 
+import string
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -42,7 +43,7 @@ def read_map(file: Path, name: str) -> Bool:
         if len(row) != len(rows[0]):
             message = f"map {name!r}: row {number} has {len(row)} letters, the first one {len(rows[0])}"
             raise InputError(message, file=file)
-        strange = [letter for letter in row if letter not in FREE + BLOCKED and not (letter.isascii() and letter.isalpha())]
+        strange = [letter for letter in row if letter not in FREE + BLOCKED + string.ascii_letters]
         if strange:
             message = f"map {name!r}: row {number} has the letter {strange[0]!r}"
             raise InputError(message, file=file, hint=f"known: {FREE}{BLOCKED} and those of the alphabet")
@@ -72,19 +73,15 @@ def read_scenario(file: Path, name: str, seed: int) -> Listed:
     targets = content.get("targets_xy")
     if not isinstance(targets, list) or len(targets) != len(start):
         raise InputError(f"{key}: targets_xy is not a list of {len(start)} goals, as agents_xy", file=file)
-    goals = tuple(
-        _cells(goal if isinstance(goal, list) and goal and isinstance(goal[0], list) else [goal], file, f"{key}: targets_xy")
-        for goal in targets
-    )
+    sequences = (it if isinstance(it, list) and it and isinstance(it[0], list) else [it] for it in targets)
+    goals = tuple(_cells(sequence, file, f"{key}: targets_xy") for sequence in sequences)
     return Listed(name=str(key), seed=int(content.get("seed") or 0), start=start, goals=goals)
 
 
 def _cells(value: Any, file: Path, what: str) -> Int:
-    sound = isinstance(value, list) and value and all(
-        isinstance(cell, list) and len(cell) == 2 and all(type(number) is int and 0 <= number < 2**15 for number in cell)
-        for cell in value
-    )
-    if not sound:
+    cells = value if isinstance(value, list) else []
+    sound = all(isinstance(cell, list) and len(cell) == 2 for cell in cells)
+    if not (cells and sound and all(type(it) is int and 0 <= it < 2**15 for cell in cells for it in cell)):
         raise InputError(f"{what} is not a list of cells [row, column]", file=file)
     return np.array(value, np.int64)
 
@@ -106,6 +103,7 @@ def _document(file: Path, _: tuple[int, int]) -> Any:
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         line = None if mark is None else mark.line + 1
-        raise InputError(f"is not YAML: {getattr(error, 'problem', None) or 'malformed'}", file=file, line=line) from None
+        problem = getattr(error, "problem", None) or "malformed"
+        raise InputError(f"is not YAML: {problem}", file=file, line=line) from None
     except (ValueError, RecursionError):
         raise InputError("is not YAML of maps or scenarios", file=file) from None

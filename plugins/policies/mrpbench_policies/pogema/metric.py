@@ -23,7 +23,7 @@ class PogemaMetrics(Metric):
     steps: int = option(128, help="length of an episode in ticks, as in the benchmark", validator=between(1, 1_000_000))
 
     columns: ClassVar[tuple[Column, ...]] = (
-        Column("CSR", "", "higher", "1 if all robots are at their goals at once within the episode", SOURCE, primary=True),
+        Column("CSR", "", "higher", "1 if all robots are at their goals at once in the episode", SOURCE, primary=True),
         Column("ISR", "", "higher", "share of the robots at their goals at the end of the episode", SOURCE),
         Column(
             "SoC",
@@ -49,7 +49,7 @@ class PogemaMetrics(Metric):
         """Return all columns; those of the other kind of episode are null."""
         problem, values = run.context.problem, dict.fromkeys((column.name for column in self.columns), None)
         found: dict[str, Value] = dict(values)
-        sequences = [goals for goals in problem.goals]
+        sequences = list(problem.goals)
         lifelong = any(len(goals) > 1 for goals in sequences)
         place = _places(run, self.steps)
         if place is None:

@@ -7,8 +7,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import (
-    Float,
     Fleet,
+    Float,
     InputError,
     Int,
     Occupancy,
@@ -50,9 +50,7 @@ class PogemaScenario(ScenarioSource):
         start = self._poses(raster, listed.start[: self.robots], f"{listed.name}: a start")
         tasks = tuple(
             Task(goals=goals, levels=np.zeros(len(goals), np.int16))
-            for goals in (
-                self._poses(raster, cells, f"{listed.name}: a goal") for cells in listed.goals[: self.robots]
-            )
+            for goals in (self._poses(raster, cells, f"{listed.name}: a goal") for cells in listed.goals[: self.robots])
         )
         return Scenario(start=start, start_level=np.zeros(self.robots, np.int16), tasks=tasks)
 

@@ -9,25 +9,27 @@ import argparse
 import math
 import time
 from collections.abc import Iterator
+from itertools import pairwise
 from pathlib import Path
 
+import attrs
 import numpy as np
 import onnx
 from mrpbench_planners_mapf.lacam import Lacam
-from onnx import TensorProto, helper, numpy_helper
-
-from mrpbench_core.api import Budget, Problem, Roadmap
-from mrpbench_core.model.planning.problem import features_of
-from mrpbench_core.testing.drawing import grid
 from mrpbench_policies.board import Board, board_of
 from mrpbench_policies.fleet_state import FleetState
 from mrpbench_policies.maps import MOVES
 from mrpbench_policies.observations import CostToGo
 from mrpbench_policies.shields import pibt
+from onnx import TensorProto, helper, numpy_helper
+
+from mrpbench_core.api import Budget, Problem, Roadmap
+from mrpbench_core.model.planning.problem import features_of
+from mrpbench_core.testing.drawing import grid
 
 RADIUS = 4
 LAYERS = (4 * (2 * RADIUS + 1) ** 2, 256, 128, 5)
-WEIGHTS = Path(__file__).parents[1] / "mrpbench_policies" / "weights" / "imitation.onnx"
+WEIGHTS = Path(__file__).parents[1] / "plugins" / "policies" / "mrpbench_policies" / "weights" / "imitation.onnx"
 Layers = list[tuple[np.ndarray, np.ndarray]]
 Samples = tuple[np.ndarray, np.ndarray]
 """Windows u1 or f2[k,4,side,side], and actions i1[k]."""
@@ -49,9 +51,7 @@ def maze(generator: np.random.Generator) -> np.ndarray:
     while stack:
         row, column = stack[-1]
         around = [(row + up, column + right) for up, right in MOVES[1:].tolist()]
-        around = [
-            (r, c) for r, c in around if 0 <= r < rows and 0 <= c < columns and blocked[2 * r + 1, 2 * c + 1]
-        ]
+        around = [(r, c) for r, c in around if 0 <= r < rows and 0 <= c < columns and blocked[2 * r + 1, 2 * c + 1]]
         if not around:
             stack.pop()
             continue
@@ -88,7 +88,7 @@ def expert(roadmap: Roadmap, start: np.ndarray, goal: np.ndarray, iterations: in
         ready=np.zeros(len(start), "i8"),
         goals=tuple(((int(vertex),),) for vertex in goal),
     )
-    problem = Problem(**{name: getattr(problem, name) for name in ("roadmap", "profile", "radius", "start", "ready", "goals")}, features=features_of(problem))
+    problem = attrs.evolve(problem, features=features_of(problem))
     result = Lacam().plan(problem, Budget(wall_s=1.0, memory_bytes=1 << 30, iterations=iterations))
     if result.plan is None:
         return None
@@ -118,7 +118,7 @@ def imitated(generator: np.random.Generator, count: int) -> Iterator[Samples]:
         board = board_of(roadmap, RADIUS)
         assert isinstance(board, Board)
         state = FleetState.at(board.maps, board.place[start][None], board.place[goal][None])
-        for before, after in zip(trace[:-1], trace[1:], strict=True):
+        for before, after in pairwise(trace):
             rows = observation.observe(state)["observation"]
             yield chosen(generator, rows, actions_of(board, before, after), state.on_goal[0])
             state.move(board.place[after][None])
@@ -251,7 +251,7 @@ def main() -> None:
             (generator.standard_normal((width, after)) * math.sqrt(2 / width)).astype(np.float32),
             np.zeros(after, np.float32),
         )
-        for width, after in zip(LAYERS[:-1], LAYERS[1:], strict=True)
+        for width, after in pairwise(LAYERS)
     ]
     began = time.monotonic()
     samples = joined(imitated(generator, wanted.instances))
