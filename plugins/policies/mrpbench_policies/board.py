@@ -63,7 +63,7 @@ def paths_of(board: Board, trace: Int) -> Paths:
     action = order[np.searchsorted(board.maps.offset[order], offset)]
     edge = board.edge[board.vertex[at], action]
     moves = edge >= 0
-    last = np.where(moves.any(axis=1), steps - moves[:, ::-1].argmax(axis=1), 0)
+    last = (moves * np.arange(1, steps + 1)).max(axis=1, initial=0)  # steps until the last move has ended
     begins = moves | np.pad(moves, ((0, 0), (1, 0)), constant_values=True)[:, :-1]
     begins &= np.arange(steps) < last[:, None]
     robot, enter = np.nonzero(begins)

@@ -182,9 +182,9 @@ class _Errands:
     def __init__(self, problem: Problem, board: Board) -> None:
         self._board, self._problem = board, problem
         self._number: Int = np.zeros(len(problem), np.int64)
-        self._goal: list[int] = [self._choice(robot, start, ()) for robot, start in enumerate(problem.start.tolist())]
+        self._goal: list[int] = []
         for robot, start in enumerate(problem.start.tolist()):
-            self._goal[robot] = self._choice(robot, start, self._goal[:robot])
+            self._goal.append(self._choice(robot, start, self._goal))
 
     def goals(self) -> Int:
         """Return the places i8[n] of the goals now."""
@@ -193,17 +193,15 @@ class _Errands:
     def update(self, state: FleetState) -> bool:
         """Give robots that have reached a goal the next one; tell whether all have reached their last ones."""
         vertices = self._board.vertex[state.place[0]]
-        at_last = True
         for robot in np.flatnonzero(state.on_goal[0]).tolist():
             while self._number[robot] < len(self._problem.goals[robot]) - 1 and self._goal[robot] == vertices[robot]:
                 self._number[robot] += 1
-                self._goal[robot] = self._choice(robot, int(vertices[robot]), ())
-                at_last = False
+                self._goal[robot] = self._choice(robot, int(vertices[robot]), [])
         state.goal[0] = self.goals()
         last = self._number >= np.array([len(goals) - 1 for goals in self._problem.goals])
-        return at_last and self._problem.horizon is None and bool((state.on_goal[0] & last).all())
+        return self._problem.horizon is None and bool((state.on_goal[0] & last).all())
 
-    def _choice(self, robot: int, at: int, taken: tuple[int, ...] | list[int]) -> int:
+    def _choice(self, robot: int, at: int, taken: list[int]) -> int:
         """The vertex to go to from vertex `at`."""
         goals = self._problem.goals[robot]
         if not goals:

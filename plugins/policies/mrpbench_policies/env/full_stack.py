@@ -31,8 +31,7 @@ from mrpbench_policies.env.commitments import next_cells
 from mrpbench_policies.env.scenes import Scene
 from mrpbench_policies.env.world_model import Depth, Steps, fleet_state
 
-
-NONE = np.zeros(0, np.int32)
+NONE = np.zeros(0, np.int64)
 
 
 @attrs.frozen(kw_only=True)
@@ -78,7 +77,7 @@ class FullStackSteps(Steps):
         self.moving = np.zeros((1, robots), bool)
         self._tick = self._count = self._revision = 0
         self._problem = open_problem(instance)
-        self._plan = Plan(paths=Paths.of([Path(edge=NONE, enter=NONE, leave=NONE)] * robots))
+        self._plan = Plan(paths=Paths.of([Path(edge=NONE.astype(np.int32), enter=NONE, leave=NONE)] * robots))
         self._released: Int32 = np.zeros(robots, np.int32)
         self.aborted = np.zeros(robots, bool)
         """bool[n]: robots that gave up since the last new move of any."""

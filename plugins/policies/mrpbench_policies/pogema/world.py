@@ -10,8 +10,8 @@ from mrpbench_policies.pogema.files import read_map
 
 @attrs.frozen(kw_only=True)
 class PogemaWorld(WorldSource):
-    """A map of a file of maps (`maps.yaml`) of POGEMA's benchmark (Skrynnik et al., ICLR 2025). The first row of text is
-    on top, at the greatest y. The name of the world is that of the map.
+    """A map of a file of maps (`maps.yaml`) of POGEMA's benchmark (Skrynnik et al., ICLR 2025). The first row is on
+    top, at the greatest y. The name of the world is that of the map.
     """
 
     file: Path = option(help="the file of maps")

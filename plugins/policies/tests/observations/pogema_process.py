@@ -27,6 +27,9 @@ def main() -> None:
             env.unwrapped.get_targets_xy(ignore_borders=True)
         )
 
+    def terminated_all(steps):
+        return bool(steps) and (all(steps[-1][4]) or all(steps[-1][5]))
+
     while True:
         try:
             what, value = pickle.load(sys.stdin.buffer)
@@ -39,6 +42,8 @@ def main() -> None:
         else:
             answer = []
             for actions in value:
+                if terminated_all(answer):
+                    break
                 observations, rewards, terminated, truncated, infos = env.step(list(actions))
                 answer.append((plain(observations), *places(), rewards, terminated, truncated, infos[0].get("metrics")))
         pickle.dump(answer, answers)

@@ -1,0 +1,43 @@
+import numpy as np
+import pytest
+
+from mrpbench_core.api import InputError
+from mrpbench_policies.acting import load
+from mrpbench_policies.observations import PogemaDefault
+
+OBSERVATION = PogemaDefault(2)
+
+
+def policy(tmp_path, body):
+    file = tmp_path / "policy.py"
+    file.write_text(body)
+    return load(file, OBSERVATION, (8, 8))
+
+
+RETURNS = "class Policy:\n    def __init__(self, robots, seed):\n        pass\n    def act(self, observations):\n        return {}\n"
+
+
+@pytest.mark.parametrize("value", ["[1, 4]", "[[1], [4]]", "[[0, 9, 0, 0, 0], [0, 0, 0, 0, 9]]"])
+def test_a_class_returns_actions_or_scores(tmp_path, value):
+    acting = policy(tmp_path, RETURNS.format(value))
+    acting.begin(2, 0)
+    assert acting.act({}).argmax(axis=1).tolist() == [1, 4]
+
+
+@pytest.mark.parametrize(
+    ("body", "message"),
+    [
+        ("class Policy\n", "is not Python"),
+        ("class Agent:\n    pass\n", "defines no class `Policy` with a method `act`"),
+        (RETURNS.format("[1, 5]"), "returned action 5 for robot_1, not 0 to 4"),
+        (RETURNS.format("[1]"), r"returned int64 \[1\], not scores \[2, 5\] or actions \[2\]"),
+        (RETURNS.format("[0.5, 1.0]"), r"returned float64 \[2\], not scores"),
+        (RETURNS.format("['a', 'b']"), "not numbers"),
+        (RETURNS.format("[[0, 0, 0, 0, float('nan')]] * 2"), "returned NaN as a score of robot_0"),
+    ],
+)
+def test_what_is_no_policy_is_refused_in_one_line(tmp_path, body, message):
+    with pytest.raises(InputError, match=message):
+        acting = policy(tmp_path, body)
+        acting.begin(2, 0)
+        acting.act({"observation": np.zeros((2, 3, 5, 5))})
