@@ -62,10 +62,10 @@ class RandomScenes(Scenes):
         """Return a map that has room for the robots.
 
         Raises:
-            InputError: none of 1,000 has.
+            InputError: none of 100 has.
         """
         generator = np.random.default_rng(seed)
-        for _ in range(1000):
+        for _ in range(100):
             blocked = generator.random(self.shape) < self._density
             maps = Maps(blocked[None], 1)
             left = maps.places(np.argwhere(~blocked)[None])[0]

@@ -30,12 +30,12 @@ def finishing(on_goal: Bool) -> dict[str, float]:
     Args:
         on_goal: bool[T,n] whether each robot has been at its goal in each of T steps or before.
     """
-    steps, _ = on_goal.shape
-    first = np.where(on_goal.any(axis=0), on_goal.argmax(axis=0) + 1, steps)
+    steps, robots = on_goal.shape
+    last = np.where(on_goal.any(axis=0), on_goal.argmax(axis=0), steps - 1)
     return {
         "CSR": float(on_goal[-1].all()),
         "ISR": float(on_goal[-1].mean()),
-        "ep_length": float(first.mean()),
+        "ep_length": float(last.sum() / robots + 1),
     }
 
 
