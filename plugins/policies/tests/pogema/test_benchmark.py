@@ -113,7 +113,8 @@ def measured(files, greedy, **settings):
         **settings,
     }
     run = load_study(study).runs[0]
-    return execute(run.config, "run", RunPaths(files / "run.zip", files / "exports")).metrics["pogema"]
+    record = execute(run.config, "run", RunPaths(recording=files / "run.zip", exports=files / "exports"))
+    return {name.removeprefix("pogema."): value for name, value in record.metrics.items()}
 
 
 def test_metrics_on_the_grid_are_those_of_the_plan(files, greedy):
