@@ -26,9 +26,12 @@ from mrpbench_core.api import (
 from mrpbench_policies.acting import Acting, load
 from mrpbench_policies.board import Board, board_of, paths_of
 from mrpbench_policies.fleet_state import FleetState
-from mrpbench_policies.observations import OBSERVATIONS, Observation
+from mrpbench_policies.observations import OBSERVATIONS, CostToGo, Observation
 from mrpbench_policies.rollout import Rollout
 from mrpbench_policies.shields import SHIELDS
+
+SHIPPED = Path(__file__).parent / "weights" / "imitation.onnx"
+"""The policy that `scripts/train_policy.py` makes."""
 
 
 @attrs.frozen(kw_only=True)
@@ -42,7 +45,11 @@ class PolicyPlanner(Planner):
     )
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
 
-    file: Path = option(help="the policy: an ONNX model, or a Python file with a class `Policy`")
+    file: Path | None = option(
+        None,
+        help="the policy: an ONNX model, or a Python file with a class `Policy`; none: a small one that imitates "
+        "LaCAM*, with the observation cost_to_go of radius 4",
+    )
     observation: Literal["pogema", "pogema_pomapf", "pogema_mapf", "mapf_gpt", "cost_to_go"] = option(
         "pogema", help="what the policy gets of each robot"
     )
@@ -60,7 +67,12 @@ class PolicyPlanner(Planner):
     @property
     def kept_promises(self) -> frozenset[Promise]:
         """Python files may do anything, so that nothing says that they repeat it."""
-        return self.promises - ({Promise.DETERMINISTIC} if self.file.suffix == ".py" else set())
+        python = self.file is not None and self.file.suffix == ".py"
+        return self.promises - ({Promise.DETERMINISTIC} if python else set())
+
+    def idle_options(self) -> dict[str, str]:
+        """Return the options that the policy of this distribution makes idle."""
+        return dict.fromkeys(("observation", "radius"), "`file` is not given") if self.file is None else {}
 
     def skip(self, problem: Problem) -> str | None:
         """Return why the policy cannot be asked.
@@ -70,7 +82,7 @@ class PolicyPlanner(Planner):
         """
         if reason := super().skip(problem):
             return reason
-        board = board_of(problem.roadmap, self.radius)
+        board = board_of(problem.roadmap, self.build_observation().radius)
         if isinstance(board, str):
             return board
         self.load(board.maps.shape)
@@ -86,7 +98,7 @@ class PolicyPlanner(Planner):
 
     def build_observation(self) -> Observation:
         """Return what builds the observations."""
-        return OBSERVATIONS[self.observation](self.radius)
+        return CostToGo(4) if self.file is None else OBSERVATIONS[self.observation](self.radius)
 
     def load(self, shape: tuple[int, int]) -> Acting:
         """Return the policy, for maps of a shape; the last ones are kept.
@@ -94,14 +106,17 @@ class PolicyPlanner(Planner):
         Raises:
             InputError: the file is no policy for the observation.
         """
-        stat = self.file.stat() if self.file.exists() else None
-        key = (stat.st_mtime_ns, stat.st_size) if stat else (0, 0)
-        return _loaded(self.file, key, self.observation, self.radius, shape)
+        file = self.file or SHIPPED
+        stat = file.stat() if file.exists() else None
+        changed = (stat.st_mtime_ns, stat.st_size) if stat else (0, 0)
+        return _loaded(file, changed, type(self.build_observation()), self.build_observation().radius, shape)
 
 
 @lru_cache(maxsize=4)
-def _loaded(file: Path, _: tuple[int, int], observation: str, radius: int, shape: tuple[int, int]) -> Acting:
-    return load(file, OBSERVATIONS[observation](radius), shape)
+def _loaded(
+    file: Path, _: tuple[int, int], observation: type[Observation], radius: int, shape: tuple[int, int]
+) -> Acting:
+    return load(file, observation(radius), shape)
 
 
 class PolicySession(PlannerSession):
@@ -149,7 +164,7 @@ class PolicySession(PlannerSession):
     def _board_of(self, roadmap: Roadmap) -> Board:
         """The cells of a roadmap, with the distances that were needed on the last one if it is the same."""
         if self._known is None or self._known[0] is not roadmap:
-            board = board_of(roadmap, self._planner.radius)
+            board = board_of(roadmap, self._planner.build_observation().radius)
             assert isinstance(board, Board), "`skip` refuses other roadmaps"
             self._known = roadmap, board
         return self._known[1]

@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from mrpbench_policies.fleet_state import FleetState, soft
 from mrpbench_policies.maps import FAR, Maps
 

@@ -1,11 +1,11 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_policies.planner import PolicyPlanner
 
 from mrpbench_core.api import Budget, Feature, InputError, PlanStatus, check_plan
 from mrpbench_core.testing import PlannerConformance
 from mrpbench_core.testing.drawing import problem
-from mrpbench_policies.planner import PolicyPlanner
 
 AMPLE = Budget(wall_s=30.0, memory_bytes=1 << 30)
 ROOM = """
@@ -66,7 +66,9 @@ def test_until_a_horizon_robots_visit_goal_after_goal(planner):
     near, far = 6, wanted.goals[0][0][0]  # vertices are counted from the lowest row
     assert far == 7
     goals = ((((near,), (far,), (4,))),)
-    windowed = attrs.evolve(wanted, goals=goals, horizon=5, features=frozenset({Feature.HORIZON, Feature.GOAL_SEQUENCES}))
+    windowed = attrs.evolve(
+        wanted, goals=goals, horizon=5, features=frozenset({Feature.HORIZON, Feature.GOAL_SEQUENCES})
+    )
     result = planner.plan(windowed, AMPLE)
     assert result.status == PlanStatus.SOLVED
     assert check_plan(windowed, result.plan).valid
@@ -114,3 +116,22 @@ def test_a_broken_file_is_refused_before_planning(tmp_path):
     (tmp_path / "broken.onnx").write_text("hello")
     with pytest.raises(InputError, match=r"broken\.onnx: is not an ONNX model"):
         PolicyPlanner(file=tmp_path / "broken.onnx").skip(problem(ROOM))
+
+
+def test_the_policy_of_this_distribution_solves_small_problems():
+    pytest.importorskip("onnxruntime", reason="the extra `onnx` is not installed")
+    wanted = problem(
+        """
+        a  .  .  .  .  B
+        .  #  .  .  #  .
+        .  .  c  D  .  .
+        .  #  .  .  #  .
+        b  .  d  C  .  A
+        """
+    )
+    planner = PolicyPlanner(shield="pibt")
+    assert planner.idle_options().keys() == {"observation", "radius"}
+    result = planner.plan(wanted, AMPLE)
+    assert result.status == PlanStatus.SOLVED
+    assert check_plan(wanted, result.plan).valid
+    assert result.plan.sum_of_costs <= 1.5 * (9 + 9 + 3 + 3)

@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
 from mrpbench_policies.fleet_state import FleetState
 from mrpbench_policies.maps import Maps
 from mrpbench_policies.shields import SHIELDS, pibt

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
-
-from mrpbench_core.api import InputError
 from mrpbench_policies.acting import load
 from mrpbench_policies.observations import PogemaDefault, PogemaPomapf
+
+from mrpbench_core.api import InputError
 
 pytest.importorskip("onnxruntime", reason="the extra `onnx` is not installed")
 onnx = pytest.importorskip("onnx", reason="onnx is not installed")
@@ -65,7 +65,7 @@ def test_an_input_that_the_observation_lacks_is_named(loaded, models):
     kind = onnx.TensorProto.FLOAT
     nodes = [onnx.helper.make_node("Add", ["xy", "speed"], ["scores"])]
     content = models.model(nodes, {"xy": (kind, ["n", 2]), "speed": (kind, ["n", 2])}, {"scores": (kind, ["n", 2])})
-    with pytest.raises(InputError, match=r"has the input 'speed'; the observation has obstacles, agents, xy, target_xy"):
+    with pytest.raises(InputError, match=r"the input 'speed'; the observation has obstacles, agents, xy, target_xy"):
         loaded(content, PogemaPomapf(2))
 
 

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
-
-from mrpbench_core.api import InputError
 from mrpbench_policies.acting import load
 from mrpbench_policies.observations import PogemaDefault
+
+from mrpbench_core.api import InputError
 
 OBSERVATION = PogemaDefault(2)
 
@@ -14,7 +14,14 @@ def policy(tmp_path, body):
     return load(file, OBSERVATION, (8, 8))
 
 
-RETURNS = "class Policy:\n    def __init__(self, robots, seed):\n        pass\n    def act(self, observations):\n        return {}\n"
+RETURNS = """\
+class Policy:
+    def __init__(self, robots, seed):
+        pass
+
+    def act(self, observations):
+        return {}
+"""
 
 
 @pytest.mark.parametrize("value", ["[1, 4]", "[[1], [4]]", "[[0, 9, 0, 0, 0], [0, 0, 0, 0, 9]]"])
@@ -38,6 +45,10 @@ def test_a_class_returns_actions_or_scores(tmp_path, value):
 )
 def test_what_is_no_policy_is_refused_in_one_line(tmp_path, body, message):
     with pytest.raises(InputError, match=message):
-        acting = policy(tmp_path, body)
-        acting.begin(2, 0)
-        acting.act({"observation": np.zeros((2, 3, 5, 5))})
+        first_step(tmp_path, body)
+
+
+def first_step(tmp_path, body):
+    acting = policy(tmp_path, body)
+    acting.begin(2, 0)
+    acting.act({"observation": np.zeros((2, 3, 5, 5))})

@@ -1,19 +1,17 @@
-"""The environments by the checks of PettingZoo and Gymnasium, in which warnings are errors, and by what they promise."""
+"""The environments by the checks of PettingZoo and Gymnasium, with warnings as errors, and by what they promise."""
 
 import io
 from contextlib import redirect_stdout
 
 import numpy as np
 import pytest
+from mrpbench_policies.fleet_state import soft
 
 from mrpbench_core.api import InputError
-from mrpbench_policies.fleet_state import soft
 
 pytest.importorskip("gymnasium", reason="the extra `gymnasium` is not installed")
 pytest.importorskip("pettingzoo", reason="the extra `gymnasium` is not installed")
 from gymnasium.utils.env_checker import check_env
-from pettingzoo.test import parallel_api_test, parallel_seed_test
-
 from mrpbench_policies.env import (
     FleetEnv,
     FleetParallelEnv,
@@ -27,6 +25,7 @@ from mrpbench_policies.env import (
 )
 from mrpbench_policies.env.commitments import next_cells
 from mrpbench_policies.observations import CostToGo, PogemaMapf
+from pettingzoo.test import parallel_api_test, parallel_seed_test
 
 DEPTHS = [Grid(), Timed(delay=0.2, longest=3)]
 ON_TARGET = ("nothing", "finish", "restart")
@@ -113,7 +112,9 @@ def test_robots_turn_before_they_move():
 @pytest.mark.parametrize("seed", range(5))
 def test_nobody_waits_for_ever_for_a_robot_that_does_not_leave(seed):
     """Robots with delays keep apart, and whoever is on its way arrives once all others stay."""
-    env = FleetParallelEnv(RandomScenes(12, 5, 5, 0.1), Timed(delay=0.3, longest=4), Task(on_target="restart", steps=500))
+    env = FleetParallelEnv(
+        RandomScenes(12, 5, 5, 0.1), Timed(delay=0.3, longest=4), Task(on_target="restart", steps=500)
+    )
     env.reset(seed=seed)
     generator, state = np.random.default_rng(seed), env.steps.state
     for step in range(150):

@@ -9,7 +9,6 @@ import sys
 from pathlib import Path
 
 import numpy as np
-
 from mrpbench_policies.env.episode import Episodes, Task
 from mrpbench_policies.fleet_state import FleetState, soft
 from mrpbench_policies.maps import Maps

@@ -1,7 +1,6 @@
 """The tokens of MAPF-GPT, written down once more from their description."""
 
 import numpy as np
-
 from mrpbench_policies.fleet_state import FleetState, soft
 from mrpbench_policies.maps import FAR, Maps
 from mrpbench_policies.observations import MapfGptTokens

@@ -2,6 +2,9 @@
 
 import numpy as np
 import pytest
+from mrpbench_policies.pogema.measures import one_shot
+from mrpbench_policies.pogema.scenario import PogemaScenario
+from mrpbench_policies.pogema.world import PogemaWorld
 
 from mrpbench_core.api import Fleet, InputError
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
@@ -9,9 +12,6 @@ from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.run import execute
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.store.paths import RunPaths
-from mrpbench_policies.pogema.measures import one_shot
-from mrpbench_policies.pogema.scenario import PogemaScenario
-from mrpbench_policies.pogema.world import PogemaWorld
 
 MAPS = """\
 "ring": |-
