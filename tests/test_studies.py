@@ -33,6 +33,7 @@ RUNS_PER_PLANNER = {
     "rates": 90,
     "batches": 80,
     "bodies": 324,
+    "policies": 80,
 }
 """Runs of each planner that is installed."""
 PLANNERS = {
@@ -44,6 +45,7 @@ PLANNERS = {
     "league_grid": 2,
     "floor": 4,
     "floor_grid": 2,
+    "policies": 4,
 }
 """Planners of a study, or methods of one, if there are several."""
 
