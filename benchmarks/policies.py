@@ -1,7 +1,8 @@
 """Speed of the environments in which policies learn: python benchmarks/policies.py [--steps N] [--full-stack].
 
-Robot-steps a second of CPU time, observations included, on one core: of POGEMA 1.4 in its own environment (`make pogema`), and of
-ours by the same maps, robots and observations, in turns; median of five. With `--full-stack` the rate with bodies.
+Robot-steps a second of CPU time, observations included, on one core: of POGEMA 1.4 in its own environment (`make
+pogema`), and of ours with as many robots on such maps, in turns; median of five. With `--full-stack` the rate with
+bodies.
 """
 
 import argparse
@@ -71,8 +72,8 @@ def batched(environments: int) -> Callable[[int], float]:
     return measure
 
 
-def full_stack(robots: int, steps: int) -> tuple[float, int, int]:
-    """Robot-steps a second with bodies, contacts, and bytes by which the process grew over the second half."""
+def full_stack(robots: int, steps: int) -> None:
+    """Print robot-steps a second with bodies, contacts, and how much the process grew in the second half."""
     study = {
         "name": "speed",
         "world": {"plugin": "generated_random", "columns": SIDE, "rows": SIDE, "blocked": 0.1},
@@ -92,13 +93,11 @@ def full_stack(robots: int, steps: int) -> tuple[float, int, int]:
         chosen = {agent: generator.choice(np.flatnonzero(infos[agent]["action_mask"])) for agent in env.agents}
         _, _, _, _, infos = env.step(chosen)
         contacts += len(env.steps.contacts)
-    found = steps * robots / (time.process_time() - began), contacts, resident() - memory
+    speed, grown = steps * robots / (time.process_time() - began), (resident() - memory) / 2**20
+    simulated = f"{env.steps.now / 60:.0f} simulated minutes"
     print(
-        f"full stack, {robots} robots: {found[0]:,.0f} robot-steps/s, {env.steps.now / 60:.0f} simulated minutes, ",
-        end="",
+        f"full stack, {robots} robots: {speed:,.0f} robot-steps/s, {simulated}, {contacts} contacts, {grown:+.1f} MiB"
     )
-    print(f"{contacts} contacts, {found[2] / 2**20:+.1f} MiB in the second half", flush=True)
-    return found
 
 
 def resident() -> int:
