@@ -123,8 +123,8 @@ def main() -> None:
     for _ in range(5):
         for name, measure in measures.items():
             rates[name].append(measure(wanted.steps))
-    for name, found in rates.items():
-        print(f"{name}: {statistics.median(found):,.0f} robot-steps/s ({min(found):,.0f} to {max(found):,.0f})")
+    for name, several in rates.items():
+        print(f"{name}: {statistics.median(several):,.0f} robot-steps/s ({min(several):,.0f} to {max(several):,.0f})")
 
 
 if __name__ == "__main__":

@@ -38,8 +38,8 @@ Samples = tuple[np.ndarray, np.ndarray]
 def random_map(generator: np.random.Generator) -> np.ndarray:
     """Return blocked cells bool[rows,columns]: of 17 to 21 rows and columns, 10 to 30 % at random."""
     shape = generator.integers(17, 22, 2)
-    found: np.ndarray = generator.random(shape) < generator.uniform(0.1, 0.3)
-    return found
+    blocked: np.ndarray = generator.random(shape) < generator.uniform(0.1, 0.3)
+    return blocked
 
 
 def maze(generator: np.random.Generator) -> np.ndarray:

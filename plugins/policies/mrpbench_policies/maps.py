@@ -61,8 +61,8 @@ class Maps:
 
     def places_in(self, environment: int | Int, cells: Int) -> Int:
         """Return the places i8[...] of cells i8[...,2] (row, column) in an environment."""
-        found: Int = environment * self.size + (cells[..., 0] + self.margin) * self.width + cells[..., 1] + self.margin
-        return found
+        places: Int = environment * self.size + (cells[..., 0] + self.margin) * self.width + cells[..., 1] + self.margin
+        return places
 
     def lay(self, environment: int, blocked: Bool) -> None:
         """Replace the map of an environment by blocked cells bool[rows,columns]."""

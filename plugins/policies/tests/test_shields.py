@@ -16,9 +16,9 @@ def corridor(cells, shape=(1, 4)):
 
 
 def scores(*actions):
-    found = np.zeros((len(actions), 5))
-    found[np.arange(len(actions)), actions] = 1.0
-    return found
+    one_hot = np.zeros((len(actions), 5))
+    one_hot[np.arange(len(actions)), actions] = 1.0
+    return one_hot
 
 
 @given(st.integers(0, 2**32), st.sampled_from(sorted(SHIELDS)))

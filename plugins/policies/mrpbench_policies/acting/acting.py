@@ -41,18 +41,18 @@ def check_choice(answer: Any, robots: int, file: Path) -> Float:
     Raises:
         InputError: it is neither.
     """
-    found = np.asarray(answer)
+    choice = np.asarray(answer)
     wanted = f"scores [{robots}, {len(ACTIONS)}] or actions [{robots}]"
-    if found.dtype.kind not in "iuf":
-        raise InputError(f"returned {found.dtype}, not numbers: {wanted}", file=file)
-    if found.shape == (robots, len(ACTIONS)):
-        scores = found.astype(np.float64)
+    if choice.dtype.kind not in "iuf":
+        raise InputError(f"returned {choice.dtype}, not numbers: {wanted}", file=file)
+    if choice.shape == (robots, len(ACTIONS)):
+        scores = choice.astype(np.float64)
         if (wrong := np.isnan(scores).any(axis=1)).any():
             raise InputError(f"returned NaN as a score of robot_{int(wrong.argmax())}", file=file)
         return scores
-    if found.shape not in ((robots,), (robots, 1)) or found.dtype.kind == "f":
-        raise InputError(f"returned {found.dtype} {list(found.shape)}, not {wanted}", file=file)
-    actions = found.reshape(robots)
+    if choice.shape not in ((robots,), (robots, 1)) or choice.dtype.kind == "f":
+        raise InputError(f"returned {choice.dtype} {list(choice.shape)}, not {wanted}", file=file)
+    actions = choice.reshape(robots)
     if (wrong := (actions < 0) | (actions >= len(ACTIONS))).any():
         robot = int(wrong.argmax())
         raise InputError(f"returned action {actions[robot]} for robot_{robot}, not 0 to {len(ACTIONS) - 1}", file=file)

@@ -38,5 +38,5 @@ def _in_rings(state: FleetState, to: Int) -> Bool:
     follows = np.append(ahead, -1)  # -1 leads to itself
     for _ in range(int(np.ceil(np.log2(len(follows))))):
         follows = follows[follows]
-    found: Bool = (follows[:-1] >= 0).reshape(to.shape)
-    return found
+    in_ring: Bool = (follows[:-1] >= 0).reshape(to.shape)
+    return in_ring

@@ -15,10 +15,10 @@ from mrpbench_core.api import (
     Int,
     Int32,
     Odometry,
-    Path,
     Paths,
     Plan,
     Problem,
+    RobotPath,
     State,
 )
 from mrpbench_core.config.settings import RunConfig
@@ -77,7 +77,7 @@ class FullStackSteps(Steps):
         self.moving = np.zeros((1, robots), bool)
         self._tick = self._count = self._revision = 0
         self._problem = open_problem(instance)
-        self._plan = Plan(paths=Paths.of([Path(edge=NONE.astype(np.int32), enter=NONE, leave=NONE)] * robots))
+        self._plan = Plan(paths=Paths.of([RobotPath(edge=NONE.astype(np.int32), enter=NONE, leave=NONE)] * robots))
         self._released: Int32 = np.zeros(robots, np.int32)
         self.aborted = np.zeros(robots, bool)
         """bool[n]: robots that gave up since the last new move of any."""

@@ -101,11 +101,11 @@ class FleetVectorEnv(VectorEnv[Any, Any, Any]):
         self._episodes.restart(environment, seed)
 
     def _measures(self) -> dict[str, Any]:
-        found: dict[str, Any] = {}
+        measures: dict[str, Any] = {}
         for environment in np.flatnonzero(self._ended).tolist():
             for name, value in self._episodes.measures(environment).items():
-                found.setdefault(name, np.full(self.num_envs, np.nan))[environment] = value
-        return found
+                measures.setdefault(name, np.full(self.num_envs, np.nan))[environment] = value
+        return measures
 
     def _observe(self) -> Any:
         assert self._steps is not None

@@ -91,11 +91,11 @@ class FleetParallelEnv(ParallelEnv[str, Any, int]):  # type: ignore[misc] # Pett
             measures = self._episodes.measures(0)
             for agent in acting:
                 infos[agent]["metrics"] = measures
-        given = dict(zip(acting, rewards[0, robots].tolist(), strict=True))
+        gained = dict(zip(acting, rewards[0, robots].tolist(), strict=True))
         if over := {agent for agent in acting if ends[agent] or cut[agent]}:
             self.agents = [agent for agent in self.agents if agent not in over]
             self._acting = {agent: acting[agent] for agent in self.agents}
-        return observations, given, ends, cut, infos
+        return observations, gained, ends, cut, infos
 
     def state(self) -> np.ndarray:
         """Return f4[rows+2,columns+2,3]: obstacles, robots and goals of the whole map, with its ring."""

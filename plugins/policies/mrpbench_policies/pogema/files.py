@@ -63,12 +63,12 @@ def read_scenario(file: Path, name: str, seed: int) -> Listed:
     of_map = {key: it for key, it in listed.items() if isinstance(it, dict) and it.get("map_name") == name}
     if not of_map:
         raise InputError(f"has no scenario for the map {name!r}", file=file)
-    found = {key: it for key, it in of_map.items() if it.get("seed") == seed} if len(of_map) > 1 else of_map
-    if not found:
+    of_seed = {key: it for key, it in of_map.items() if it.get("seed") == seed} if len(of_map) > 1 else of_map
+    if not of_seed:
         seeds = sorted({str(it.get("seed")) for it in of_map.values()}, key=lambda text: (len(text), text))
         message = f"has no scenario with seed {seed} for the map {name!r}"
         raise InputError(message, file=file, hint=f"seeds {seeds[0]} to {seeds[-1]}")
-    key, content = next(iter(found.items()))
+    key, content = next(iter(of_seed.items()))
     start = _cells(content.get("agents_xy"), file, f"{key}: agents_xy")
     targets = content.get("targets_xy")
     if not isinstance(targets, list) or len(targets) != len(start):

@@ -47,22 +47,22 @@ class PogemaMetrics(Metric):
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
         """Return all columns; those of the other kind of episode are null."""
-        problem, values = run.context.problem, dict.fromkeys((column.name for column in self.columns), None)
-        found: dict[str, Value] = dict(values)
+        problem = run.context.problem
+        values: dict[str, Value] = {column.name: None for column in self.columns}
         sequences = list(problem.goals)
         lifelong = any(len(goals) > 1 for goals in sequences)
         place = _places(run, self.steps)
         if place is None:
-            return found | ({} if lifelong else {"CSR": 0.0})
+            return values | ({} if lifelong else {"CSR": 0.0})
         reach = _reach(run)
         if lifelong:
             reached = sum(_visits(run, robot, place[:, robot], reach) for robot in range(len(problem)))
-            return found | {"avg_throughput": reached / self.steps}
+            return values | {"avg_throughput": reached / self.steps}
         goals = [goal[-1] if goal else () for goal in sequences]
         on_goal = np.stack([_at(run, goal, place[:, robot], reach) for robot, goal in enumerate(goals)], axis=1)
         together = on_goal.all(axis=1)
         end = int(together.argmax()) + 1 if together.any() else self.steps
-        return found | one_shot(on_goal[:end])
+        return values | one_shot(on_goal[:end])
 
 
 def _places(run: FinishedRun, steps: int) -> Float | None:
@@ -75,8 +75,8 @@ def _places(run: FinishedRun, steps: int) -> Float | None:
             return None  # too few samples to say where robots are after each step
         at = np.arange(1, steps + 1) * tick
         sample = np.searchsorted(time, at + 1e-9, side="right") - 1
-        found: Float = truth[np.maximum(sample, 0), :, :2]
-        return found
+        positions: Float = truth[np.maximum(sample, 0), :, :2]
+        return positions
     plan = context.result.plan
     if plan is None:
         return None
@@ -87,11 +87,11 @@ def _places(run: FinishedRun, steps: int) -> Float | None:
 def _vertices(paths: Paths, run: FinishedRun, steps: int) -> Int:
     """The vertices i8[steps,n] of a plan after each step; a move leads to its end when it ends."""
     problem = run.context.problem
-    found = np.empty((steps, len(problem)), np.int64)
+    vertices = np.empty((steps, len(problem)), np.int64)
     for robot, path in enumerate(paths):
         visited = path.vertices(problem.roadmap, int(problem.start[robot]))
-        found[:, robot] = visited[np.searchsorted(path.leave, np.arange(1, steps + 1), side="right")]
-    return found
+        vertices[:, robot] = visited[np.searchsorted(path.leave, np.arange(1, steps + 1), side="right")]
+    return vertices
 
 
 def _reach(run: FinishedRun) -> float:

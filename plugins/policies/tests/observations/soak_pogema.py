@@ -80,11 +80,11 @@ def episode(pogema, generator, kind, on_target):
     for step, answer in enumerate(pogema.steps(actions), 1):
         observations, places, goals, rewards, terminated, truncated, metrics = answer
         state.move(soft(state, state.wishes(actions[step - 1][None])))
-        given, ends, late = episodes.after_step()
+        gained, ends, late = episodes.after_step()
         if on_target == "restart":  # which goals come next is POGEMA's choice here
             state.goal[0] = maps.places(goals[None])[0]
         assert (maps.cells(state.place)[0] == places).all(), (step, config)
-        assert given[0].tolist() == rewards, (step, config)
+        assert gained[0].tolist() == rewards, (step, config)
         assert ends[0].tolist() == terminated, (step, config)
         assert bool(late[0]) == all(truncated), (step, config)
         same(observation.observe(state), observations)
