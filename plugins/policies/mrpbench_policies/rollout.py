@@ -34,7 +34,8 @@ class Rollout:
     observation: Observation
     shield: Shield
     sampling: np.random.Generator | None
-    """Draws actions in proportion to the exponential of their scores; None: the best one is chosen."""
+    """Draws actions, and their order for the shield, in proportion to the exponential of their scores; None: the best
+    one is chosen. Adding Gumbel noise draws without replacement (Kool, van Hoof and Welling, ICML 2019)."""
     priority: Int
     """i8[n] steps since each robot was at its goal."""
     trace: list[Int] = attrs.field(factory=list)
@@ -68,11 +69,9 @@ class Rollout:
     def _step(self) -> None:
         state = self.state
         scores = self.acting.act(self.observation.observe(state))
-        actions = scores.argmax(axis=1)
         if self.sampling is not None:
-            noise = self.sampling.gumbel(size=scores.shape)
-            with np.errstate(invalid="ignore"):
-                actions = np.nan_to_num(scores + noise, nan=-np.inf).argmax(axis=1)
+            scores = scores + self.sampling.gumbel(size=scores.shape)
+        actions = scores.argmax(axis=1)
         to = self.shield(state, actions, scores, self.priority)
         wish = state.wishes(actions)
         illegal = state.maps.blocked[wish]

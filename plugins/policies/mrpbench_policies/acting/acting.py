@@ -14,6 +14,8 @@ from mrpbench_policies.maps import ACTIONS
 Arrays = Mapping[str, NDArray[Any]]
 Memory = dict[str, NDArray[Any]]
 """What a recurrent policy remembers: arrays by name, whose rows are robots."""
+CERTAIN = 1000.0
+"""The score of an action that a policy returns: so much more than others that sampling never draws another one."""
 
 
 class Acting(ABC):
@@ -57,6 +59,6 @@ def check_choice(answer: Any, robots: int, file: Path) -> Float:
         robot = int(wrong.argmax())
         raise InputError(f"returned action {actions[robot]} for robot_{robot}, not 0 to {len(ACTIONS) - 1}", file=file)
     scores = np.zeros((robots, len(ACTIONS)))
-    scores[:, 0] = 0.5  # whoever may not do what it wants rather stays
-    scores[np.arange(robots), actions] = 1.0
+    scores[:, 0] = CERTAIN / 2  # whoever may not do what it wants rather stays
+    scores[np.arange(robots), actions] = CERTAIN
     return scores
