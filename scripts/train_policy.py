@@ -153,6 +153,17 @@ def chosen(generator: np.random.Generator, rows: np.ndarray, actions: np.ndarray
     return rows[taken].astype(np.float16), actions[taken].astype(np.int8)
 
 
+def new_layers(generator: np.random.Generator) -> Layers:
+    """Return a network with random weights (He et al., ICCV 2015)."""
+    return [
+        (
+            (generator.standard_normal((width, after)) * math.sqrt(2 / width)).astype(np.float32),
+            np.zeros(after, np.float32),
+        )
+        for width, after in pairwise(LAYERS)
+    ]
+
+
 def forward(layers: Layers, rows: np.ndarray) -> list[np.ndarray]:
     """Return the values of all layers, the last of which are the scores f4[k,5]."""
     values = [rows]
@@ -246,13 +257,7 @@ def main() -> None:
     parser.add_argument("--out", type=Path, default=WEIGHTS)
     wanted = parser.parse_args()
     generator = np.random.default_rng(wanted.seed)
-    layers: Layers = [
-        (
-            (generator.standard_normal((width, after)) * math.sqrt(2 / width)).astype(np.float32),
-            np.zeros(after, np.float32),
-        )
-        for width, after in pairwise(LAYERS)
-    ]
+    layers = new_layers(generator)
     began = time.monotonic()
     samples = joined(imitated(generator, wanted.instances))
     for number in range(wanted.rounds + 1):
