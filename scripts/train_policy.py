@@ -193,7 +193,7 @@ def train(layers: Layers, samples: Samples, generator: np.random.Generator, epoc
     rows, actions = samples
     first = [np.zeros_like(array) for pair in layers for array in pair]
     second = [np.zeros_like(array) for pair in layers for array in pair]
-    batch, step = 1024, 0
+    batch, step = min(1024, len(rows)), 0
     total = epochs * (len(rows) // batch)
     for epoch in range(epochs):
         order, loss = generator.permutation(len(rows)), 0.0

@@ -17,7 +17,7 @@ def test_training_lowers_the_error_and_writes_a_model_that_says_the_same(tmp_pat
     generator = np.random.default_rng(0)
     samples = SCRIPT["joined"](SCRIPT["imitated"](generator, 3))
     layers = SCRIPT["new_layers"](generator)
-    SCRIPT["train"](layers, samples, generator, 4)
+    SCRIPT["train"](layers, samples, generator, 8)
     errors = [float(line.split()[-1]) for line in capsys.readouterr().out.splitlines()]
     assert errors[-1] < 0.9 * errors[0]
     SCRIPT["write"](layers, tmp_path / "small.onnx")
