@@ -98,7 +98,9 @@ def test_a_study_has_its_runs_and_no_mistakes_but_planners_that_are_not_installe
     study = load_study(FOLDER / f"{name}.yaml")
     assert study.name == name
     blocks = [point.canonical["planner"] for point in study.runs]
-    found = Counter((block.get("planner", block)["plugin"], block.get("method")) for block in blocks)
+    found = Counter(
+        (block.get("planner", block)["plugin"], block.get("method"), block.get("shield")) for block in blocks
+    )
     assert set(found.values()) == {RUNS_PER_PLANNER[name]}
     refused = {word for word in missing_planners() if any(f"called '{word}'" in str(error) for error in study.errors)}
     assert len(study.errors) == len(refused)
