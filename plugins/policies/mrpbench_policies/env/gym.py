@@ -97,8 +97,13 @@ class FleetVectorEnv(VectorEnv[Any, Any, Any]):
         seed = self._seeds[environment] = self._next_seed
         self._next_seed += 1
         scene = self._scenes.draw(seed)
-        self._steps.lay(environment, scene)
-        self._episodes.restart(environment, seed)
+        if self._depth.batched:
+            self._steps.lay(environment, scene)
+            self._episodes.restart(environment, seed)
+        else:
+            self._steps.close()
+            self._steps = self._depth.begin([scene], self._observation.radius, seed)
+            self._episodes = Episodes(self._task, self._steps.state, [seed])
 
     def _measures(self) -> dict[str, Any]:
         measures: dict[str, Any] = {}

@@ -49,16 +49,17 @@ class PogemaMetrics(Metric):
         """Return all columns; those of the other kind of episode are null."""
         problem = run.context.problem
         values: dict[str, Value] = {column.name: None for column in self.columns}
-        sequences = list(problem.goals)
-        lifelong = any(len(goals) > 1 for goals in sequences)
+        lifelong = any(len(goals) > 1 for goals in problem.goals)
+        if run.planned and run.context.result.plan is None and not lifelong:
+            return values | {"CSR": 0.0}
         place = _places(run, self.steps)
         if place is None:
-            return values | ({} if lifelong else {"CSR": 0.0})
+            return values
         reach = _reach(run)
         if lifelong:
             reached = sum(_visits(run, robot, place[:, robot], reach) for robot in range(len(problem)))
             return values | {"avg_throughput": reached / self.steps}
-        goals = [goal[-1] if goal else () for goal in sequences]
+        goals = [goal[-1] if goal else () for goal in problem.goals]
         on_goal = np.stack([_at(run, goal, place[:, robot], reach) for robot, goal in enumerate(goals)], axis=1)
         together = on_goal.all(axis=1)
         end = int(together.argmax()) + 1 if together.any() else self.steps

@@ -16,6 +16,7 @@ from mrpbench_policies.env import (
     FleetEnv,
     FleetParallelEnv,
     FleetVectorEnv,
+    FullStack,
     Grid,
     RandomScenes,
     StudyScenes,
@@ -159,6 +160,20 @@ def test_bodies_reach_their_goals_in_the_full_stack():
         contacts += len(env.steps.contacts)
     assert reached >= 3
     assert contacts == 0
+    env.close()
+
+
+def test_with_bodies_the_next_episode_begins_at_the_starts_of_another_scenario():
+    scenes = StudyScenes(STUDY)
+    env = FleetVectorEnv(scenes, 1, FullStack(config=scenes.config), Task(steps=2))
+    env.reset(seed=5)
+    stay = np.zeros((1, 4), int)
+    ends = [bool(env.step(stay)[3][0]) for _ in range(3)]
+    assert ends == [False, True, False]
+    start = scenes.draw(6).instance.scenario.start[:, :2]
+    np.testing.assert_allclose(env._steps.pose[:, :2], start, atol=1e-9)
+    with pytest.raises(ValueError, match="the depth FullStack has one environment"):
+        FleetVectorEnv(scenes, 2, FullStack(config=scenes.config))
     env.close()
 
 

@@ -129,6 +129,15 @@ def test_metrics_with_bodies_are_those_of_the_poses(files, greedy):
     assert values["SoC"] >= 4.0
 
 
+def test_without_a_plan_nobody_succeeds_and_with_few_samples_nothing_is_known(files, greedy):
+    lazy = files / "lazy.py"
+    lazy.write_text(greedy.read_text().replace("return np.stack", "return 0 * np.stack"))
+    planner = {"plugin": "policy", "file": str(lazy), "observation": "cost_to_go"}
+    assert measured(files, greedy, planner=planner)["CSR"] == 0.0
+    values = measured(files, greedy, simulator="kinematic", recording={"rate": 0.1})
+    assert set(values.values()) == {None}
+
+
 def test_soc_counts_the_step_since_which_a_robot_stays():
     on_goal = np.array([[0, 1, 0], [1, 0, 0], [1, 1, 0], [1, 1, 1]], bool)
     assert one_shot(on_goal) == {"CSR": 1.0, "ISR": 1.0, "SoC": 9.0, "makespan": 4.0, "ep_length": 4.0}
