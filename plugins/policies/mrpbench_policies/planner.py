@@ -50,6 +50,10 @@ class PolicyPlanner(Planner):
         help="the policy: an ONNX model, or a Python file with a class `Policy`; none: a small one that imitates "
         "LaCAM*, with the observation cost_to_go of radius 4",
     )
+    python: Path | None = option(
+        None,
+        help="the interpreter of another environment, which runs a Python file; none: the file is run with the planner",
+    )
     observation: Literal["pogema", "pogema_pomapf", "pogema_mapf", "mapf_gpt", "cost_to_go"] = option(
         "pogema", help="what the policy gets of each robot"
     )
@@ -72,7 +76,9 @@ class PolicyPlanner(Planner):
 
     def idle_options(self) -> dict[str, str]:
         """Return the options that the policy of this distribution makes idle."""
-        return dict.fromkeys(("observation", "radius"), "`file` is not given") if self.file is None else {}
+        if self.file is None:
+            return dict.fromkeys(("observation", "radius", "python"), "`file` is not set")
+        return {"python": "`file` is not a Python file"} if self.file.suffix != ".py" else {}
 
     def skip(self, problem: Problem) -> str | None:
         """Return why the policy cannot be asked.
@@ -109,14 +115,20 @@ class PolicyPlanner(Planner):
         file = self.file or SHIPPED
         stat = file.stat() if file.exists() else None
         changed = (stat.st_mtime_ns, stat.st_size) if stat else (0, 0)
-        return _loaded(file, changed, type(self.build_observation()), self.build_observation().radius, shape)
+        observation = self.build_observation()
+        return _loaded(file, changed, type(observation), observation.radius, shape, self.python)
 
 
 @lru_cache(maxsize=4)
 def _loaded(
-    file: Path, _: tuple[int, int], observation: type[Observation], radius: int, shape: tuple[int, int]
+    file: Path,
+    _: tuple[int, int],
+    observation: type[Observation],
+    radius: int,
+    shape: tuple[int, int],
+    python: Path | None,
 ) -> Acting:
-    return load(file, observation(radius), shape)
+    return load(file, observation(radius), shape, python)
 
 
 class PolicySession(PlannerSession):

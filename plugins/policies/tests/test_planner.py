@@ -1,3 +1,5 @@
+from pathlib import Path
+
 import attrs
 import numpy as np
 import pytest
@@ -130,8 +132,38 @@ def test_the_policy_of_this_distribution_solves_small_problems():
         """
     )
     planner = PolicyPlanner(shield="pibt")
-    assert planner.idle_options().keys() == {"observation", "radius"}
+    assert planner.idle_options().keys() == {"observation", "radius", "python"}
     result = planner.plan(wanted, AMPLE)
     assert result.status == PlanStatus.SOLVED
     assert check_plan(wanted, result.plan).valid
     assert result.plan.sum_of_costs <= 1.5 * (9 + 9 + 3 + 3)
+
+
+POGEMA = Path(__file__).parents[3] / "build" / "pogema" / "bin" / "python"
+A_STAR = """\
+import numpy as np
+from pogema import BatchAStarAgent
+
+
+class Policy:
+    def __init__(self, robots, seed):
+        self.agent = BatchAStarAgent()
+
+    def act(self, observations):
+        rows = [dict(zip(observations, row)) for row in zip(*observations.values())]
+        for row in rows:  # POGEMA's own environment gives tuples
+            row |= {name: tuple(row[name].tolist()) for name in ("xy", "target_xy")}
+        return np.array(self.agent.act(rows))
+"""
+
+
+def test_the_agents_of_pogema_run_in_their_own_environment(tmp_path):
+    if not POGEMA.exists():
+        pytest.skip("POGEMA is not installed: `make pogema` does it")
+    (tmp_path / "a_star.py").write_text(A_STAR)
+    planner = PolicyPlanner(file=tmp_path / "a_star.py", python=POGEMA, observation="pogema_pomapf", radius=3)
+    wanted = problem("a . . .\n. # # .\nb # # .\n. . B A")
+    assert planner.skip(wanted) is None
+    result = planner.plan(wanted, AMPLE)
+    assert result.status == PlanStatus.SOLVED
+    assert result.plan.sum_of_costs == 6 + 3
