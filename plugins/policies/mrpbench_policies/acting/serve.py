@@ -8,6 +8,7 @@ matter.
 import pickle
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -17,10 +18,10 @@ def main() -> None:
     answers, sys.stdout = sys.stdout.buffer, sys.stderr  # what the policy prints is not an answer
     file = sys.argv[1]
     content = Path(file).read_bytes()
-    names = {"__name__": "policy", "__file__": file}
+    names: dict[str, Any] = {"__name__": "policy", "__file__": file}
     exec(compile(content, file, "exec"), names)  # noqa: S102 - the user names the file to run it
-    made = names.get("Policy")
-    policy = None
+    made: Any = names.get("Policy")
+    policy: Any = None
     sound = isinstance(made, type) and callable(getattr(made, "act", None))
     pickle.dump(sound, answers)
     answers.flush()
