@@ -24,6 +24,7 @@ EXTRAS = {
     "mujoco": "mrpbench-simulators-mujoco",
     "ortools": "mrpbench-assigners-ortools",
     "parquet": "mrpbench-core[parquet]",
+    "policies": "mrpbench-policies[gymnasium,onnx]",
     "pybullet": "mrpbench-simulators-pybullet",
     "ros2": "mrpbench-bridges-ros2",
     "rosbag2": "mrpbench-exporters-rosbag2",

@@ -33,6 +33,7 @@ RUNS_PER_PLANNER = {
     "rates": 90,
     "batches": 80,
     "bodies": 324,
+    "policies": 80,
 }
 """Runs of each planner that is installed."""
 PLANNERS = {
@@ -44,6 +45,7 @@ PLANNERS = {
     "league_grid": 2,
     "floor": 4,
     "floor_grid": 2,
+    "policies": 4,
 }
 """Planners of a study, or methods of one, if there are several."""
 
@@ -96,7 +98,9 @@ def test_a_study_has_its_runs_and_no_mistakes_but_planners_that_are_not_installe
     study = load_study(FOLDER / f"{name}.yaml")
     assert study.name == name
     blocks = [point.canonical["planner"] for point in study.runs]
-    found = Counter((block.get("planner", block)["plugin"], block.get("method")) for block in blocks)
+    found = Counter(
+        (block.get("planner", block)["plugin"], block.get("method"), block.get("shield")) for block in blocks
+    )
     assert set(found.values()) == {RUNS_PER_PLANNER[name]}
     refused = {word for word in missing_planners() if any(f"called '{word}'" in str(error) for error in study.errors)}
     assert len(study.errors) == len(refused)

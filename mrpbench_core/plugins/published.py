@@ -61,6 +61,12 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.simulators": ("league",),
         "mrpbench.task_sources": ("lorr",),
     },
+    "mrpbench-policies": {
+        "mrpbench.metrics": ("pogema",),
+        "mrpbench.planners": ("policy",),
+        "mrpbench.scenarios": ("pogema",),
+        "mrpbench.worlds": ("pogema",),
+    },
     "mrpbench-simulators-mujoco": {"mrpbench.simulators": ("mujoco",)},
     "mrpbench-simulators-pybullet": {"mrpbench.simulators": ("pybullet",)},
 }
@@ -79,6 +85,7 @@ EXTRAS = {
     "mrpbench-bridges-ros2": "ros2",
     "mrpbench-executors-dask": "dask",
     "mrpbench-exporters-rosbag2": "rosbag2",
+    "mrpbench-policies": "policies",
     "mrpbench-search": "search",
     "mrpbench-simulators-mujoco": "mujoco",
     "mrpbench-simulators-pybullet": "pybullet",

@@ -49,6 +49,16 @@ with open(out, "w") as file:
         for robot, path in enumerate(paths):
             file.write(f"Agent {{robot}}: " + "".join(f"({{r}},{{c}})->" for r, c in path) + "\\n")
 """
+POLICY = """\
+import numpy as np
+
+class Policy:
+    def __init__(self, robots, seed):
+        pass
+
+    def act(self, observations):
+        return observations["observation"][:, 2, [5, 4, 6, 5, 5], [5, 5, 5, 4, 6]]
+"""
 COMPONENTS = [provider for provider in installed() if provider.group != HOOKS]
 
 ELSEWHERE = {
@@ -79,6 +89,11 @@ def required(kind, name, folder):
     (folder / "tiny.tasks").write_text("2\n3,8\n2\n")
     (folder / "dynabarn.csv").write_text("world,class,index\n0,easy,3\n")
     (folder / "keyframes.csv").write_text("class,index,t,x,y\neasy,3,0,2,1.5\neasy,3,60,3,1.5\n")
+    (folder / "maps.yaml").write_text('"tiny": |-\n  ....\n  .#..\n  ....\n')
+    (folder / "list.yaml").write_text(
+        "scenarios:\n  one: {map_name: tiny, seed: 0, agents_xy: [[0, 0], [2, 3]], targets_xy: [[2, 3], [0, 0]]}\n"
+    )
+    (folder / "policy.py").write_text(POLICY)
     solver = folder / "solver"
     solver.write_text(SOLVER.format(python=sys.executable))
     solver.chmod(0o755)
@@ -105,6 +120,9 @@ def required(kind, name, folder):
         ("scenario", "movingai"): {"file": folder / "tiny.scen", "robots": 2},
         ("scenario", "file"): {"file": folder / "frozen.yaml"},
         ("scenario", "lorr"): {"file": folder / "problem.json"},
+        ("scenario", "pogema"): {"file": folder / "list.yaml", "robots": 2},
+        ("world", "pogema"): {"file": folder / "maps.yaml", "map": "tiny"},
+        ("planner", "policy"): {"file": folder / "policy.py", "observation": "cost_to_go", "shield": "pibt"},
     }.get((kind, name), {})
 
 

@@ -1,0 +1,174 @@
+"""Environments in the parallel form of PettingZoo: robots are agents, which act all at once."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from gymnasium import spaces
+from pettingzoo import ParallelEnv
+
+from mrpbench_core.api import InputError
+from mrpbench_policies.env.episode import Episodes, Task
+from mrpbench_policies.env.full_stack import FullStack
+from mrpbench_policies.env.scenes import Scenes, StudyScenes
+from mrpbench_policies.env.spaces import seed_of, space_of, split
+from mrpbench_policies.env.timed import Timed
+from mrpbench_policies.env.world_model import Depth, Grid, Steps
+from mrpbench_policies.observations import Observation, PogemaDefault
+
+
+class FleetParallelEnv(ParallelEnv[str, Any, int]):  # type: ignore[misc] # PettingZoo has no types
+    """Robots `robot_0`, `robot_1`, … that go to their goals.
+
+    Actions are 0 stay, 1 up, 2 down, 3 left, 4 right. `infos[agent]["action_mask"]` i1[5] says which have an effect: a
+    robot that is between two cells goes on, whatever its action. At the end of an episode `infos[agent]["metrics"]` has
+    the metrics of POGEMA. Rewards and ends are those of `Task`.
+
+    Args:
+        scenes: where episodes take place; `reset(seed=s)` begins that of seed s, and without a seed the next one.
+        depth: how robots move.
+        task: what they have to do.
+        observation: what they perceive.
+    """
+
+    metadata: dict[str, Any] = {"name": "mrpbench_fleet_v0", "render_modes": ["ansi"], "is_parallelizable": True}  # noqa: RUF012 - PettingZoo's
+
+    def __init__(
+        self,
+        scenes: Scenes,
+        depth: Depth | None = None,
+        task: Task | None = None,
+        observation: Observation | None = None,
+        render_mode: Literal["ansi"] | None = None,
+    ) -> None:
+        self._scenes, self._depth, self._task = scenes, depth or Grid(), task or Task()
+        self._observation = observation or PogemaDefault()
+        self.render_mode = render_mode
+        self.possible_agents = [f"robot_{robot}" for robot in range(scenes.robots)]
+        self.agents: list[str] = []
+        self.observation_spaces = {agent: space_of(self._observation, scenes.shape) for agent in self.possible_agents}
+        self.action_spaces = {agent: spaces.Discrete(5) for agent in self.possible_agents}
+        self._steps: Steps | None = None
+        self._seed = -1
+        self._acting: dict[str, int] = {}
+        """The indices of `agents`."""
+
+    def observation_space(self, agent: str) -> spaces.Space[Any]:
+        """Return the space of the observations of a robot, the same object each time."""
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent: str) -> spaces.Space[Any]:
+        """Return the space of its actions."""
+        return self.action_spaces[agent]
+
+    def reset(self, seed: int | None = None, options: Mapping[str, Any] | None = None) -> tuple[dict[str, Any], Any]:  # noqa: ARG002
+        """Begin an episode; return observations and infos."""
+        self.close()
+        self._seed = self._seed + 1 if seed is None else seed_of(seed)
+        scene = self._scenes.draw(self._seed)
+        self._steps = self._depth.begin([scene], self._observation.radius, self._seed)
+        self._episodes = Episodes(self._task, self._steps.state, [self._seed])
+        self.agents = list(self.possible_agents)
+        self._acting = {agent: robot for robot, agent in enumerate(self.agents)}
+        return self._observations(), self._infos()
+
+    def step(self, actions: Mapping[str, int]) -> tuple[Any, Any, Any, Any, Any]:
+        """Let a step pass; return observations, rewards, terminations, truncations and infos of robots that acted."""
+        if self._steps is None:
+            raise RuntimeError("call `reset` before `step`")
+        chosen = np.array([[actions.get(agent, 0) for agent in self.possible_agents]], np.int64)
+        if ((chosen < 0) | (chosen > 4)).any():
+            raise ValueError("actions are 0 to 4")
+        self._steps.step(chosen)
+        rewards, terminated, truncated = self._episodes.after_step()
+        acting = self._acting
+        observations, infos = self._observations(), self._infos()
+        robots, late = [*acting.values()], bool(truncated[0])
+        ends = dict(zip(acting, terminated[0, robots].tolist(), strict=True))
+        cut = {agent: late and not end for agent, end in ends.items()}
+        if late or all(ends.values()):
+            measures = self._episodes.measures(0)
+            for agent in acting:
+                infos[agent]["metrics"] = measures
+        gained = dict(zip(acting, rewards[0, robots].tolist(), strict=True))
+        if over := {agent for agent in acting if ends[agent] or cut[agent]}:
+            self.agents = [agent for agent in self.agents if agent not in over]
+            self._acting = {agent: acting[agent] for agent in self.agents}
+        return observations, gained, ends, cut, infos
+
+    def state(self) -> np.ndarray:
+        """Return f4[rows+2,columns+2,3]: obstacles, robots and goals of the whole map, with its ring."""
+        assert self._steps is not None, "call `reset` first"
+        fleet = self._steps.state
+        maps = fleet.maps
+        whole = np.zeros((len(maps.blocked), 3), np.float32)
+        whole[:, 0] = maps.obstacles
+        whole[fleet.place[fleet.active], 1] = 1.0
+        whole[fleet.goal[fleet.active], 2] = 1.0
+        ring = slice(maps.margin - 1, -maps.margin + 1 or None)
+        return whole.reshape(maps.height, maps.width, 3)[ring, ring]
+
+    def render(self) -> str | None:
+        """Return the map as text: `#` blocked, letters of robots, their capitals at goals."""
+        if self.render_mode is None or self._steps is None:
+            return None
+        obstacles, robots, goals = np.moveaxis(self.state(), -1, 0)
+        letters = np.where(obstacles > 0, "#", np.where(robots > 0, "r", np.where(goals > 0, "G", ".")))
+        return "\n".join("".join(row) for row in letters)
+
+    def close(self) -> None:
+        """Close what the episode uses."""
+        if self._steps is not None:
+            self._steps.close()
+            self._steps = None
+
+    @property
+    def steps(self) -> Steps:
+        """The robots of the episode; with bodies, their poses."""
+        assert self._steps is not None, "call `reset` first"
+        return self._steps
+
+    def _observations(self) -> dict[str, Any]:
+        assert self._steps is not None
+        rows = list(split(self._observation.observe(self._steps.state)))
+        return {agent: rows[robot] for agent, robot in self._acting.items()}
+
+    def _infos(self) -> dict[str, dict[str, Any]]:
+        assert self._steps is not None
+        fleet, moving = self._steps.state, self._steps.moving[0]
+        free = ~fleet.maps.blocked[fleet.place[0][:, None] + fleet.maps.offset]
+        mask = list(np.where(moving[:, None], np.arange(5) == 0, free).astype(np.int8))
+        return {agent: {"action_mask": mask[robot]} for agent, robot in self._acting.items()}
+
+
+def parallel_env(
+    study: Path | str | dict[str, Any],
+    depth: Literal["grid", "timed", "full_stack"] | Depth = "grid",
+    task: Task | None = None,
+    observation: Observation | None = None,
+    **overrides: Any,
+) -> FleetParallelEnv:
+    """Return the environment of a study: the instances of its first run, with any seed.
+
+    Args:
+        study: a file, or its content.
+        depth: how robots move.
+        task: what they have to do.
+        observation: what they perceive.
+        overrides: settings of the study, e.g. `scenario={"plugin": "random", "robots": 8}`.
+
+    Raises:
+        InputError: see `StudyScenes`.
+    """
+    scenes = StudyScenes(study, [f"{name}={value}" for name, value in overrides.items()])
+    if isinstance(depth, Depth):
+        return FleetParallelEnv(scenes, depth, task, observation)
+    depths: dict[str, Callable[[], Depth]] = {
+        "grid": Grid,
+        "timed": Timed,
+        "full_stack": lambda: FullStack(config=scenes.config),
+    }
+    if depth not in depths:
+        raise InputError(f"there is no depth {depth!r}", hint=f"known: {', '.join(depths)}")
+    return FleetParallelEnv(scenes, depths[depth](), task, observation)

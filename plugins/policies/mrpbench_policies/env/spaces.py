@@ -1,0 +1,50 @@
+"""Between observations and the spaces of Gymnasium."""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from gymnasium import spaces
+from numpy.typing import NDArray
+
+from mrpbench_policies.observations import Field, Observation
+
+
+def space_of(observation: Observation, shape: tuple[int, int], *rows: int) -> spaces.Space[Any]:
+    """Return the space of an observation on maps of a shape: a box, or a dict of several.
+
+    With `rows`, that of so many robots, or environments and robots.
+    """
+    fields = observation.fields(shape)
+    boxes: dict[str, spaces.Space[Any]] = {name: _box(field, rows) for name, field in fields.items()}
+    return next(iter(boxes.values())) if len(boxes) == 1 else spaces.Dict(boxes)
+
+
+def _box(field: Field, rows: tuple[int, ...]) -> spaces.Box:
+    return spaces.Box(field.low, field.high, (*rows, *field.shape), np.dtype(field.dtype))
+
+
+def joined(arrays: Mapping[str, NDArray[Any]], *rows: int) -> Any:
+    """Return observations whose first axes are `rows`, as the space has them."""
+    shaped = {name: array.reshape(*rows, *array.shape[1:]) for name, array in arrays.items()}
+    return next(iter(shaped.values())) if len(shaped) == 1 else shaped
+
+
+def split(arrays: Mapping[str, NDArray[Any]]) -> Iterator[Any]:
+    """Yield the observation of each robot."""
+    if len(arrays) == 1:
+        yield from next(iter(arrays.values()))
+        return
+    for row in range(len(next(iter(arrays.values())))):
+        yield {name: array[row] for name, array in arrays.items()}
+
+
+def seed_of(seed: int) -> int:
+    """Return a seed.
+
+    Raises:
+        ValueError: it is below 0.
+    """
+    if seed < 0:
+        raise ValueError(f"a seed is at least 0, not {seed}")
+    return int(seed)

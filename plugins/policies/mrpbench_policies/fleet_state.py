@@ -1,0 +1,119 @@
+"""Where the robots of a batch of environments are, and how they move in one step."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import attrs
+import numpy as np
+from numpy.typing import NDArray
+
+from mrpbench_core.api import Bool, Int
+from mrpbench_policies.maps import Maps
+
+MEMORY = 5
+"""Steps whose choices are remembered."""
+
+
+@attrs.define(kw_only=True, eq=False)
+class FleetState:
+    """The robots of b environments with n robots each; make it with `at`."""
+
+    maps: Maps
+    place: Int
+    """i8[b,n]: see `Maps`."""
+    goal: Int
+    """i8[b,n] places."""
+    start: Int
+    """i8[b,n] places."""
+    active: Bool
+    """bool[b,n]: false for robots that have left the grid."""
+    overwritten: Bool
+    """bool[b,n]: the robot entered the cell of one with a higher index in the last step. POGEMA 1.4 moves robots one
+    after another in its raster of robots, so that the second erases the first, until that one acts again."""
+    chosen: NDArray[np.int8]
+    """i1[b,n,5]: the last actions chosen, oldest first, -1 = none yet; what became of them is not regarded."""
+    _occupant: NDArray[np.int32]
+    """i4[b*size] scratch: -1 everywhere between calls."""
+
+    @classmethod
+    def at(cls, maps: Maps, start: Int, goal: Int) -> "FleetState":
+        """Return robots at `start` i8[b,n] with goals at `goal` i8[b,n], all places."""
+        return cls(
+            maps=maps,
+            place=start.copy(),
+            goal=goal.copy(),
+            start=start.copy(),
+            active=np.ones(start.shape, bool),
+            overwritten=np.zeros(start.shape, bool),
+            chosen=np.full((*start.shape, MEMORY), -1, np.int8),
+            occupant=np.full(len(maps.blocked), -1, np.int32),
+        )
+
+    @property
+    def on_goal(self) -> Bool:
+        """bool[b,n]: the robot is where its goal is."""
+        there: Bool = self.place == self.goal
+        return there
+
+    def remember(self, actions: Int) -> None:
+        """Note the actions i8[b,n] that were chosen."""
+        self.chosen[..., :-1] = self.chosen[..., 1:]
+        self.chosen[..., -1] = actions
+
+    def wishes(self, actions: Int) -> Int:
+        """Return the places i8[b,n] to which actions i8[b,n] would lead."""
+        wish: Int = self.place + self.maps.offset[actions]
+        return wish
+
+    def move(self, to: Int) -> None:
+        """Put the robots at places i8[b,n]."""
+        with self.occupied() as occupant:
+            index = np.arange(to.size, dtype=np.int32).reshape(to.shape)
+            self.overwritten = (occupant[to] > index) & self.active
+        self.place = to
+
+    @contextmanager
+    def occupied(self) -> Iterator[NDArray[np.int32]]:
+        """Lend i4[b*size]: the index of the active robot at each place, counted over all environments, -1 = none."""
+        place, occupant = self.place.ravel(), self._occupant
+        index = np.arange(len(place), dtype=np.int32)
+        if not self.active.all():
+            index = index[self.active.ravel()]
+            place = place[index]
+        occupant[place] = index
+        try:
+            yield occupant
+        finally:
+            occupant[place] = -1
+
+
+def soft(state: FleetState, wish: Int) -> Int:
+    """Return where the robots are after a step, i8[b,n], if they want to be at places `wish` i8[b,n].
+
+    Conflicts are resolved by the rule `soft` of POGEMA (Skrynnik et al., ICLR 2025): two robots that want to change
+    places stay. Of several that want one cell the first gets it. Whoever would come to a wall, or to the cell of a
+    robot that stays, stays as well. A robot may enter a cell in the step in which another leaves it, also in a ring. So
+    no two robots share a cell or meet on an edge (`following: allowed`).
+    """
+    place, to = state.place.ravel(), wish.ravel()
+    index = np.arange(len(place), dtype=np.int32)
+    stays = ~state.active.ravel() | state.maps.blocked[to]
+    to = np.where(stays, place, to)
+    with state.occupied() as occupant:
+        other = occupant[to]
+        swap = (other >= 0) & (other != index)
+        swap &= to[other] == place
+        stays |= swap | (to == place)
+        movers = index[~stays]
+        aims = to[movers]
+        ahead = occupant[aims]
+    first = state.maps.scratch
+    first[aims[::-1]] = movers[::-1]  # of equal places the last one counts, which is that of the first robot
+    lost = first[aims] != movers
+    stays[movers[lost]] = True
+    follows = ~lost & (ahead >= 0)
+    movers, ahead = movers[follows], ahead[follows]
+    while (hindered := stays[ahead]).any():
+        stays[movers[hindered]] = True
+        movers, ahead = movers[~hindered], ahead[~hindered]
+    return np.where(stays, place, to).reshape(wish.shape)

@@ -1,0 +1,201 @@
+"""The environments by the checks of PettingZoo and Gymnasium, with warnings as errors, and by what they promise."""
+
+import io
+from contextlib import redirect_stdout
+
+import numpy as np
+import pytest
+from mrpbench_policies.fleet_state import soft
+
+from mrpbench_core.api import InputError
+
+pytest.importorskip("gymnasium", reason="the extra `gymnasium` is not installed")
+pytest.importorskip("pettingzoo", reason="the extra `gymnasium` is not installed")
+from gymnasium.utils.env_checker import check_env
+from mrpbench_policies.env import (
+    FleetEnv,
+    FleetParallelEnv,
+    FleetVectorEnv,
+    FullStack,
+    Grid,
+    RandomScenes,
+    StudyScenes,
+    Task,
+    Timed,
+    parallel_env,
+)
+from mrpbench_policies.env.commitments import next_cells
+from mrpbench_policies.observations import CostToGo, PogemaMapf
+from pettingzoo.test import parallel_api_test, parallel_seed_test
+
+DEPTHS = [Grid(), Timed(delay=0.2, longest=3)]
+ON_TARGET = ("nothing", "finish", "restart")
+SCENES = RandomScenes(4, 6, 7, 0.2)
+STUDY = {
+    "name": "floor",
+    "world": "generated_random",
+    "roadmap": "grid",
+    "scenario": {"plugin": "random", "robots": 4},
+    "fleet": {"robot": "turtlebot3_burger", "lidar": "none"},
+    "assigner": "identity",
+    "planner": "pibt",
+}
+
+
+def quiet(check, *arguments, **options):
+    with redirect_stdout(io.StringIO()):
+        check(*arguments, **options)
+
+
+@pytest.mark.parametrize("depth", DEPTHS, ids=lambda depth: type(depth).__name__)
+@pytest.mark.parametrize("on_target", ON_TARGET)
+def test_the_parallel_form_is_that_of_pettingzoo(depth, on_target):
+    quiet(parallel_api_test, FleetParallelEnv(SCENES, depth, Task(on_target=on_target, steps=30)), 100)
+
+
+def test_other_observations_and_seeds_are_those_of_pettingzoo():
+    task = Task(on_target="restart", steps=20)
+    quiet(parallel_api_test, FleetParallelEnv(SCENES, Grid(), task, PogemaMapf(2)), 50)
+    quiet(parallel_seed_test, lambda: FleetParallelEnv(SCENES, DEPTHS[1], task), 20)
+
+
+@pytest.mark.parametrize("depth", DEPTHS, ids=lambda depth: type(depth).__name__)
+def test_a_fleet_is_an_environment_of_gymnasium(depth):
+    check_env(FleetEnv(SCENES, depth, Task(steps=20), CostToGo(2)), skip_render_check=True)
+
+
+@pytest.mark.parametrize("depth", DEPTHS, ids=lambda depth: type(depth).__name__)
+@pytest.mark.parametrize("on_target", ["nothing", "restart"])
+def test_a_batch_does_what_its_environments_do_alone(depth, on_target):
+    """With the delays of `Timed` switched off, which are drawn for the whole batch."""
+    depth = Timed() if isinstance(depth, Timed) else depth
+    task = Task(on_target=on_target, steps=12)
+    batch = FleetVectorEnv(SCENES, 3, depth, task)
+    alone = [FleetEnv(SCENES, depth, task) for _ in range(3)]
+    together, _ = batch.reset(seed=5)
+    for environment, one in enumerate(alone):
+        np.testing.assert_array_equal(one.reset(seed=5 + environment)[0], together[environment])
+    generator, episodes = np.random.default_rng(0), [0, 0, 0]
+    ended, last = np.zeros(3, bool), 7
+    for _ in range(40):
+        actions = generator.integers(0, 5, (3, 4))
+        together, rewards, terminated, truncated, infos = batch.step(actions)
+        for environment, one in enumerate(alone):
+            if ended[environment]:
+                last += 1
+                episodes[environment] += 1
+                np.testing.assert_array_equal(one.reset(seed=last)[0], together[environment])
+                assert not (terminated | truncated)[environment]
+                continue
+            observation, reward, done, cut, info = one.step(actions[environment])
+            np.testing.assert_array_equal(observation, together[environment])
+            assert (reward, done, cut) == (rewards[environment], terminated[environment], truncated[environment])
+            if done or cut:
+                assert {name: array[environment] for name, array in infos["metrics"].items()} == info["metrics"]
+        ended = terminated | truncated
+    assert min(episodes) >= 2
+
+
+def test_robots_turn_before_they_move():
+    env = FleetParallelEnv(RandomScenes(1, 3, 3, 0.0), Timed(), Task(on_target="restart", steps=50))
+    env.reset(seed=0)
+    state = env.steps.state
+    state.place[0, 0] = state.maps.places(np.array([[(1, 1)]]))[0, 0]
+    state.goal[0, 0] = state.maps.places(np.array([[(0, 0)]]))[0, 0]
+    moving = []
+    for _ in range(3):  # to the left: two quarter turns, then the move
+        _, _, _, _, infos = env.step({"robot_0": 3})
+        moving.append(infos["robot_0"]["action_mask"].tolist() == [1, 0, 0, 0, 0])
+    assert moving == [True, True, False]
+    assert state.maps.cells(state.place)[0].tolist() == [[1, 0]]
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_nobody_waits_for_ever_for_a_robot_that_does_not_leave(seed):
+    """Robots with delays keep apart, and whoever is on its way arrives once all others stay."""
+    env = FleetParallelEnv(
+        RandomScenes(12, 5, 5, 0.1), Timed(delay=0.3, longest=4), Task(on_target="restart", steps=500)
+    )
+    env.reset(seed=seed)
+    generator, state = np.random.default_rng(seed), env.steps.state
+    for step in range(150):
+        before = state.place
+        wanted = generator.integers(0, 5, 12) if step < 100 else np.zeros(12, int)
+        env.step({agent: int(action) for agent, action in zip(env.agents, wanted, strict=True)})
+        assert len(np.unique(state.place)) == 12
+        swaps = (before[0][:, None] == state.place[0]) & (state.place[0][:, None] == before[0])
+        assert not (swaps & ~np.eye(12, dtype=bool)).any()
+    assert not env.steps.moving.any()
+
+
+def test_without_robots_under_way_commitments_are_the_soft_rule():
+    env = FleetParallelEnv(RandomScenes(20, 6, 6, 0.1))
+    env.reset(seed=1)
+    state, generator = env.steps.state, np.random.default_rng(2)
+    for _ in range(20):
+        actions = generator.integers(0, 5, (1, 20))
+        to = soft(state, state.wishes(actions))
+        assert (next_cells(state, np.full((1, 20), -1), actions, rings=True) == to).all()
+        state.move(to)
+
+
+def greedy(window, mask, noise):
+    middle = window.shape[-1] // 2
+    around = ((0, 0), (-1, 0), (1, 0), (0, -1), (0, 1))
+    scores = np.array([window[2, middle + row, middle + column] for row, column in around]) + noise
+    return int(np.where(mask, scores, -9).argmax())
+
+
+def test_bodies_reach_their_goals_in_the_full_stack():
+    env = parallel_env(STUDY, "full_stack", Task(on_target="finish", steps=120), CostToGo(3))
+    observations, infos = env.reset(seed=1)
+    generator, reached, contacts = np.random.default_rng(0), 0.0, 0
+    while env.agents:
+        actions = {
+            agent: greedy(observations[agent], infos[agent]["action_mask"], 0.05 * generator.random(5))
+            for agent in env.agents
+        }
+        observations, rewards, _, _, infos = env.step(actions)
+        reached += sum(rewards.values())
+        contacts += len(env.steps.contacts)
+    assert reached >= 3
+    assert contacts == 0
+    env.close()
+
+
+def test_with_bodies_the_next_episode_begins_at_the_starts_of_another_scenario():
+    scenes = StudyScenes(STUDY)
+    env = FleetVectorEnv(scenes, 1, FullStack(config=scenes.config), Task(steps=2))
+    env.reset(seed=5)
+    stay = np.zeros((1, 4), int)
+    ends = [bool(env.step(stay)[3][0]) for _ in range(3)]
+    assert ends == [False, True, False]
+    start = scenes.draw(6).instance.scenario.start[:, :2]
+    np.testing.assert_allclose(env._steps.pose[:, :2], start, atol=1e-9)
+    with pytest.raises(ValueError, match="the depth FullStack has one environment"):
+        FleetVectorEnv(scenes, 2, FullStack(config=scenes.config))
+    env.close()
+
+
+def test_a_study_gives_the_scenario_of_each_seed():
+    scenes = StudyScenes(STUDY)
+    one, again, other = (scenes.draw(seed) for seed in (3, 3, 4))
+    assert one.instance.scenario.id == again.instance.scenario.id != other.instance.scenario.id
+    raster = one.instance.world.levels[0].occupancy
+    assert (one.blocked == raster.blocked[::-1]).all()
+    row, column = one.start[0]
+    pose = one.instance.scenario.start[0]
+    assert raster.cells(pose[None, :2]).tolist() == [[len(one.blocked) - 1 - row, column]]
+
+
+def test_errors_are_one_line():
+    with pytest.raises(InputError, match="has no room for 90 robots"):
+        RandomScenes(90, 9, 9, 0.5).draw(0)
+    with pytest.raises(InputError, match="vertices are cells"):
+        StudyScenes(STUDY | {"world": "office", "roadmap": "graph"})
+    env = FleetParallelEnv(SCENES)
+    with pytest.raises(RuntimeError, match="call `reset`"):
+        env.step({})
+    env.reset(seed=0)
+    with pytest.raises(ValueError, match="actions are 0 to 4"):
+        env.step({"robot_0": 5})
