@@ -129,6 +129,9 @@ def test_the_section_that_the_how_to_shows_is_read(tmp_path):
     section = page[page.index("crowd_sim:\n") :].partition("```")[0]
     world = load(tmp_path, BUILDING.partition("crowd_sim:")[0].replace("[1, tea]", "[1, kitchen]") + section)
     assert world.people == (PeopleGroup(people=4, x=2.4, y=10.0, level=0, activity=0),)
-    following = [(len(it.places), it.following) for it in world.activities]
-    assert following == [(2, ((1, 1),)), (0, ((2, 1),)), (1, ((0, 1),))]
+    assert [(len(it.places), it.following) for it in world.activities] == [
+        (2, ((1, 1),)),
+        (0, ((2, 1),)),
+        (1, ((0, 1),)),
+    ]
     assert world.notes == ()
