@@ -1,13 +1,12 @@
 """Compare the speed of executions with that of an older commit, in one run on one machine.
 
-The commit is checked out and installed beside this one, in `build/speed/`, and `full_stack.py` of both runs in
-turns, once in each round. The table has, for each row, the ratio of this version's simulated seconds per CPU second to
-those of the other one: the median of the rounds, the least and the greatest. The first line is the speed of the machine
-itself, by a fixed program of integer arithmetic.
+The commit is checked out and installed beside this one, in `build/speed/`, and rows of `full_stack.py` of both are
+executed in turns, once in each round. The table has, for each row, the ratio of this version's simulated seconds per
+CPU second to those of the other one: the median of the rounds, the least and the greatest. The first line is the speed
+of the machine itself, by a fixed program of integer arithmetic.
 """
 
 import argparse
-import re
 import statistics
 import subprocess
 import sys
@@ -18,6 +17,16 @@ ROOT = Path(__file__).resolve().parent.parent
 STEPS = 1_000_000
 """Of the fixed program."""
 ROWS = ("planar-9", "planar-100", "planar-400", "bodies-9", "planar-1000-pure_pursuit", "planar-9-mppi")
+PROGRAM = """
+import sys
+
+import attrs
+from full_stack import ROWS, run
+
+clock = run(attrs.evolve(ROWS[sys.argv[1]][0], seconds=float(sys.argv[2])))
+print(clock.simulated / clock.cpu)
+"""
+"""Executes one row with the version of the folder that it runs in."""
 
 
 def machine_speed() -> float:
@@ -34,12 +43,13 @@ def machine_speed() -> float:
 
 def checkout(commit: str) -> Path:
     """Check a commit out and install it into an environment of its own, if that is not done yet; return its folder."""
-    found = subprocess.run(
+    name = subprocess.run(
         ["git", "rev-parse", "--verify", f"{commit}^{{commit}}"], cwd=ROOT, check=True, capture_output=True, text=True
-    )
-    folder = ROOT / "build" / "speed" / found.stdout.strip()[:12]
+    ).stdout.strip()
+    folder = ROOT / "build" / "speed" / name[:12]
     if not folder.is_dir():
-        subprocess.run(["git", "worktree", "add", "--detach", folder, found.stdout.strip()], cwd=ROOT, check=True)
+        # A folder that someone deleted is still a worktree to Git.
+        subprocess.run(["git", "worktree", "add", "--force", "--detach", folder, name], cwd=ROOT, check=True)
     installed = folder / ".venv" / "installed"
     if not installed.exists():
         subprocess.run([sys.executable, "-m", "venv", ".venv"], cwd=folder, check=True)
@@ -51,12 +61,11 @@ def checkout(commit: str) -> Path:
 
 def factor(folder: Path, python: Path, row: str, seconds: float) -> float:
     """Return the simulated seconds per CPU second of one execution of a row."""
-    command = [python, "benchmarks/full_stack.py", row, "--rounds", "1", "--seconds", str(seconds)]
-    output = subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
-    found = re.search(rf"^{re.escape(row)}\s+\S+x\s+([\d.]+)x", output, re.MULTILINE)
-    if found is None:
-        raise SystemExit(f"{folder}: benchmarks/full_stack.py printed no factor for {row}:\n{output}")
-    return float(found[1])
+    command = [python, "-c", PROGRAM, row, str(seconds)]
+    execution = subprocess.run(command, cwd=folder / "benchmarks", check=False, capture_output=True, text=True)
+    if execution.returncode:
+        raise SystemExit(f"{folder}: {row} was not executed:\n{execution.stderr}")
+    return float(execution.stdout.splitlines()[-1])
 
 
 def main() -> None:
