@@ -1,6 +1,7 @@
 """`mrpbench hunt STUDY --for FAILURE [key=value…]`: search for runs that fail, and shrink them."""
 
 import argparse
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -10,7 +11,6 @@ from mrpbench_core.cli.output.table import print_json, print_table
 from mrpbench_core.engine.loading.runs import StudyRuns
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.files.printing import file_name
 from mrpbench_core.files.text import counted
 from mrpbench_core.report.reading.columns import describe_columns
 from mrpbench_core.store.folder import ResultsFolder
@@ -26,6 +26,7 @@ from mrpbench_search.hunting.search import Hunt
 from mrpbench_search.hunting.space import first_case, read_space
 
 BUDGET = "10min"
+_NO_WORD = re.compile(r"[^\w.]+")
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -69,7 +70,7 @@ def run(arguments: argparse.Namespace) -> int:
             hunt = Hunt(moves=moves, runs=runs, announce=print)
             end = hunt.run(arguments.most)
             files = [
-                write_failure(out / "failures" / f"{number}-{file_name(each.kind)}", each, runs)
+                write_failure(out / "failures" / f"{number}-{_NO_WORD.sub('-', each.kind)}", each, runs)
                 for number, each in enumerate(hunt.failures.values(), start=1)
             ]
     if arguments.json:
