@@ -139,7 +139,7 @@ class ExecutionLoop(ControlLoop):
     def _replan(self, view: FleetView) -> None:
         """Ask for a new plan if one is needed."""
         now, replanner, tasks, reactions = self._now, self._inputs.replanner, self._inputs.tasks, self._reactions
-        wish, released = reactions.reason(now), self._orders.released
+        wish, released = reactions.reason(now) or self._orders.replan or None, self._orders.released
         given_up = reactions.update()
         if tasks is not None:
             head = heads(replanner.problem, replanner.moves, released)
@@ -160,6 +160,7 @@ class ExecutionLoop(ControlLoop):
         if returned is not self._returned:
             self._returned = returned
             self._orders = self._checks.orders(returned)
+            self._inputs.recorder.events(returned.events)
 
     def _adopt(self, new: Revision) -> bool:
         """Put a new plan in force; tell whether there is one and the dispatcher accepts it."""
