@@ -31,6 +31,8 @@ class Site:
         self.vertex_of = names
         """Vertices by name: those of the world, and `v12` for vertex 12."""
         self.name_of = {vertex: name for name, vertex in names.items()}
+        self.has_headings = not bool(np.isnan(roadmap.heading).all())
+        """Vertices prescribe yaws."""
         self._guarded = {
             edge
             for resource in roadmap.resources
@@ -40,7 +42,7 @@ class Site:
         self._leaving: list[dict[int, list[tuple[int, int, int]]]] = [
             self._edges_of(profile) for profile in range(len(roadmap.duration))
         ]
-        self._ways: dict[tuple[int, int, int], tuple[int, ...] | None] = {}
+        self._ways: dict[tuple[int, int, int, bool], tuple[int, ...] | None] = {}
 
     def nearest(self, x: float, y: float, level: int) -> int | None:
         """Return the vertex that a position (metres) on a level means, or None if there is none there."""
@@ -50,25 +52,31 @@ class Site:
         found, distance = self.roadmap.nearest(x, y, level)
         return found if distance <= REACH else None
 
-    def way(self, profile: int, start: int, end: int) -> tuple[int, ...] | None:
-        """Return the edges of the fastest way between the places of two vertices, or None if there is none.
+    def facing(self, vertex: int, yaw: float) -> int:
+        """Return the vertex at the place of another whose heading is nearest to a yaw (radians)."""
+        return int(self.roadmap.facing(np.array([vertex], np.int32), np.array([yaw]))[0])
+
+    def way(self, profile: int, start: int, end: int, any_heading: bool = True) -> tuple[int, ...] | None:
+        """Return the edges of the fastest way from one vertex to another, or None if there is none.
 
         The vehicle drives it alone: no way leads through a door or a lift, which somebody would have to operate.
 
         Args:
             profile: motion profile of the robot.
             start: vertex.
-            end: vertex; any vertex at its place will do.
+            end: vertex.
+            any_heading: any vertex at the place of `end` will do.
         """
-        key = profile, start, end
+        key = profile, start, end, any_heading and self.has_headings
         if key not in self._ways:
             self._ways[key] = self._search(*key)
         return self._ways[key]
 
-    def _search(self, profile: int, start: int, end: int) -> tuple[int, ...] | None:
-        position, level = self.roadmap.position, self.roadmap.level
-        same = (position == position[end]).all(axis=1) & (level == level[end])
-        ends = set(np.flatnonzero(same).tolist())
+    def _search(self, profile: int, start: int, end: int, any_heading: bool) -> tuple[int, ...] | None:
+        position, level, ends = self.roadmap.position, self.roadmap.level, {end}
+        if any_heading:
+            same = (position == position[end]).all(axis=1) & (level == level[end])
+            ends = set(np.flatnonzero(same).tolist())
         leaving = self._leaving[profile]
         best, by = {start: 0}, {start: -1}
         open_vertices = [(0, start)]

@@ -107,7 +107,7 @@ class _Member:
 
     def __init__(self, fleet: VdaFleet, recipe: Vda5050, site: Site, paths: FleetPaths, robot: int) -> None:
         self._names: Names = VERSIONS[recipe.version]
-        self._maps, self._robot = site.levels, site.fleet.robots[robot]
+        self._maps, self._robot, self._headings = site.levels, site.fleet.robots[robot], site.has_headings
         serial = site.fleet.names[robot]
         self._topic = f"{recipe.topics or self._names.topics}/{recipe.manufacturer}/{serial}/"
         self._headers = Headers(self._names.version, recipe.manufacturer, serial)
@@ -167,7 +167,7 @@ class _Member:
         self._state_at, self._not_before = now + self._intervals[1], now + LEAST_INTERVAL
 
     def _send_factsheet(self) -> None:
-        self._send("factsheet", factsheet_of(self._robot, self._names, self._intervals), retain=True)
+        self._send("factsheet", factsheet_of(self._robot, self._names, self._intervals, self._headings), retain=True)
 
     def _visualization(self) -> dict[str, Any]:
         found = {

@@ -10,6 +10,15 @@ from mrpbench_live.vda5050.names import Names
 from mrpbench_live.vda5050.scopes import SCOPES
 from mrpbench_live.vda5050.vehicle import Vehicle
 
+_OPTIONAL = (
+    "nodes.nodePosition",
+    "nodes.nodePosition.allowedDeviationXY",
+    "nodes.nodePosition.allowedDeviationTheta",
+    "edges.length",
+    "edges.rotationAllowed",
+)
+"""Optional parameters of orders that vehicles use. What a factsheet does not list counts as not supported (7.10)."""
+
 
 class Headers:
     """Counts the messages of one sender on each of its topics (6.4).
@@ -102,14 +111,20 @@ def _action_state(action: Action, names: Names) -> dict[str, Any]:
     return {**found, names.result: action.result} if action.result else found
 
 
-def factsheet_of(robot: RobotModel, names: Names, intervals: tuple[float, float, float]) -> dict[str, Any]:
+def factsheet_of(
+    robot: RobotModel, names: Names, intervals: tuple[float, float, float], headings: bool
+) -> dict[str, Any]:
     """Return the factsheet of a vehicle without its header.
 
     Args:
         robot: its model.
         names: of the version that it speaks.
         intervals: seconds between states at least, usually, and between visualizations.
+        headings: it can take the orientation that a node asks for.
     """
+    optional = [f"order.{name}" for name in (*_OPTIONAL, f"edges.{names.maximum_speed}")]
+    optional += ["order.nodes.nodePosition.theta"] if headings else []
+    supported = [{"parameter": name, "support": "SUPPORTED"} for name in optional]
     minimum, usual, visualization = intervals
     width, length = (float(extent) for extent in (robot.footprint.max(axis=0) - robot.footprint.min(axis=0))[::-1])
     kind = {"seriesName": robot.name, "localizationTypes": ["NATURAL"], "navigationTypes": ["VIRTUAL_LINE_GUIDED"]}
@@ -146,7 +161,7 @@ def factsheet_of(robot: RobotModel, names: Names, intervals: tuple[float, float,
                 },
             },
             "protocolFeatures": {
-                "optionalParameters": [{"parameter": "order.edges.maximumSpeed", "support": "SUPPORTED"}],
+                "optionalParameters": supported,
                 "mobileRobotActions": [
                     {"actionType": name, "actionScopes": list(where), "pauseAllowed": False, "cancelAllowed": True}
                     for name, where in scopes.items()
@@ -177,7 +192,7 @@ def factsheet_of(robot: RobotModel, names: Names, intervals: tuple[float, float,
             },
         },
         "protocolFeatures": {
-            "optionalParameters": [{"parameter": "order.edges.maxSpeed", "support": "SUPPORTED"}],
+            "optionalParameters": supported,
             "agvActions": [
                 {
                     "actionType": names.initialize_position if name == "initializePosition" else name,

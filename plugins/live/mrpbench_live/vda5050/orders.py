@@ -11,6 +11,9 @@ import attrs
 from mrpbench_live.vda5050.actions import STANDING, Action
 from mrpbench_live.vda5050.names import Names
 
+ANY_THETA = 3.14
+"""Radians: a node that allows such a deviation asks for no orientation."""
+
 
 class RefusedError(Exception):
     """An order or an instant action is refused.
@@ -36,6 +39,8 @@ class Node:
     """Of the roadmap."""
     position: tuple[float, float]
     """metres."""
+    any_heading: bool
+    """It does not ask for an orientation."""
     deviation: float | None
     """Metres within which it counts as traversed; None: the vehicle decides."""
     actions: list[Action]
@@ -88,6 +93,16 @@ class Layout(Protocol):
         """The maps that exist."""
         ...
 
+    @property
+    def has_headings(self) -> bool:
+        """True if the vehicle can take the orientation that a node asks for."""
+        ...
+
+
+def asks_for_heading(position: Mapping[str, Any]) -> bool:
+    """Tell whether a node asks for an orientation: `theta`, unless any deviation from it is allowed."""
+    return "theta" in position and abs(position.get("allowedDeviationTheta", 0.0)) < ANY_THETA
+
 
 def references(message: Mapping[str, Any]) -> dict[str, str]:
     """Return how errors refer to an order."""
@@ -134,7 +149,7 @@ def check_structure(order: Mapping[str, Any]) -> None:
             seen.add(action["actionId"])
 
 
-def check_fields(order: Mapping[str, Any], names: Names) -> None:
+def check_fields(order: Mapping[str, Any], names: Names, has_headings: bool) -> None:
     """Check that the order asks for nothing that the vehicles cannot do.
 
     Raises:
@@ -145,6 +160,11 @@ def check_fields(order: Mapping[str, Any], names: Names) -> None:
             found = references(order) | {"parameter": field}
             name = part.get("edgeId", part.get("nodeId", "the order"))
             raise RefusedError("UNSUPPORTED_PARAMETER", f"{name}: {field} is not supported", found, "CRITICAL")
+    for node in () if has_headings else order["nodes"]:
+        if asks_for_heading(node.get("nodePosition", {})):
+            found = references(order) | {"parameter": "theta"}
+            what = f"{node['nodeId']}: theta is not supported on a roadmap without headings"
+            raise RefusedError("UNSUPPORTED_PARAMETER", what, found, "CRITICAL")
 
 
 def check_actions(order: Mapping[str, Any], scopes: Mapping[str, Collection[str]]) -> None:
@@ -190,6 +210,7 @@ def read_nodes(order: Mapping[str, Any], layout: Layout, names: Names) -> list[N
                 message=node,
                 vertex=place[0],
                 position=place[1],
+                any_heading=position is None or not asks_for_heading(position),
                 deviation=None if position is None else names.deviation(position),
                 actions=[Action.of(action) for action in node["actions"]],
             )

@@ -7,7 +7,7 @@ import numpy as np
 
 from mrpbench_live.fleet.paths import FleetPaths
 from mrpbench_live.fleet.site import Site
-from mrpbench_live.vda5050.orders import Node
+from mrpbench_live.vda5050.orders import Node, asks_for_heading
 
 
 class Track:
@@ -37,13 +37,20 @@ class Track:
             return None if vertex is None else (vertex, self._place(vertex))
         x, y = float(position["x"]), float(position["y"])
         found = self._site.nearest(x, y, self._site.level_of[position["mapId"]])
+        if found is not None and asks_for_heading(position):
+            found = self._site.facing(found, float(position["theta"]))
         return None if found is None else (found, (x, y))
+
+    @property
+    def has_headings(self) -> bool:
+        """True if the vehicle can take the orientation that a node asks for."""
+        return self._site.has_headings
 
     def continue_by(self, start: int, nodes: Sequence[Node]) -> list[tuple[int, ...]] | Node:
         """Return the ways from one vertex to each of the nodes in turn, or the first node to which there is none."""
         ways = []
         for node in nodes:
-            way = self._site.way(self._profile, start, node.vertex)
+            way = self._site.way(self._profile, start, node.vertex, node.any_heading)
             if way is None:
                 return node
             start = int(self._site.roadmap.edges[way[-1], 1]) if way else start

@@ -120,7 +120,7 @@ class Vehicle:
         if not same and not self.idle:
             assert self.order is not None
             raise RefusedError("OTHER_ORDER_ACTIVE", f"the order {self.order['orderId']!r} is active", refers)
-        orders.check_fields(message, self._names)
+        orders.check_fields(message, self._names, self._track.has_headings)
         orders.check_actions(message, SCOPES)
         nodes, edges = orders.read_nodes(message, self._track, self._names), orders.read_edges(message)
         if same:
