@@ -1,8 +1,10 @@
 """A broker for tests, a small site, and a vehicle on it that moves when a test says so."""
 
+import json
 import shutil
 import socket
 import subprocess
+import sys
 import time
 
 import numpy as np
@@ -10,18 +12,36 @@ import pytest
 from mrpbench_live.fleet.paths import FleetPaths
 from mrpbench_live.fleet.site import Site
 from mrpbench_live.vda5050.battery import Battery
+from mrpbench_live.vda5050.condition import Here
 from mrpbench_live.vda5050.instant import InstantActions
 from mrpbench_live.vda5050.messages import state_of
 from mrpbench_live.vda5050.names import VERSIONS
 from mrpbench_live.vda5050.schemas import validator
 from mrpbench_live.vda5050.track import Track
-from mrpbench_live.vda5050.vehicle import Here, Vehicle
+from mrpbench_live.vda5050.vehicle import Vehicle
 
 from mrpbench_core.api import Fleet, Level, Roadmap, RobotModel, Vertex, World
+from mrpbench_core.store.folder import ResultsFolder
+from mrpbench_core.store.recording import Recording
+from mrpbench_core.store.results import Results
 
 ROBOT = RobotModel(
     name="box", footprint=[(0.2, 0.15), (-0.2, 0.15), (-0.2, -0.15), (0.2, -0.15)], max_speed=1.0, max_turn_rate=1.0
 )
+
+
+CODE = "import sys; from mrpbench_core.cli.main import main; sys.exit(main(sys.argv[1:]))"
+MAP = "type octile\nheight 10\nwidth 12\nmap\n" + "............\n" * 10
+STUDY = {
+    "name": "live",
+    "world": {"plugin": "movingai", "file": "free.map"},
+    "roadmap": "grid",
+    "scenario": {"plugin": "random", "robots": 3},
+    "simulator": "planar",
+    "planner": "prioritized",
+    "control_rate": "10 Hz",
+    "metrics": ["execution"],
+}
 
 
 def free_port():
@@ -194,3 +214,37 @@ def bench(request):
 def bench3():
     pytest.importorskip("fastjsonschema", reason="mrpbench-live[vda5050] is not installed")
     return Bench("3.0")
+
+
+@pytest.fixture
+def serve(tmp_path, broker):
+    """Serve the study in a process of its own; returns its record and recording when it has ended."""
+    (tmp_path / "free.map").write_text(MAP)
+    (tmp_path / "study.yaml").write_text(json.dumps(STUDY))
+    running = []
+
+    def start(seconds, version, pace):
+        words = ["serve", "study.yaml", "--vda5050", broker.url, "--version", version, "--pace", str(pace)]
+        command = [sys.executable, "-c", CODE, *words, "--duration", f"{seconds} s"]
+        running.append(subprocess.Popen(command, cwd=tmp_path))
+        return running[-1]
+
+    def result():
+        assert running[0].wait(60) == 0
+        folder = Results(ResultsFolder(tmp_path / "results" / "live"))
+        (record,) = folder
+        found = Recording(folder.folder.run(record["run_id"]).recording)
+        columns = (found.channels[f"event_{key}"]().tolist() for key in ("kind", "robot", "detail"))
+        events = list(zip(*columns, strict=True))
+        found.close()
+        return record, events
+
+    def mrpbench(*words):
+        """Run another command beside it; its output can be read."""
+        running.append(subprocess.Popen([sys.executable, "-c", CODE, *words], stdout=subprocess.PIPE, text=True))
+        return running[-1]
+
+    yield start, result, mrpbench
+    for process in running:
+        process.kill()
+        process.wait()

@@ -14,12 +14,13 @@ from mrpbench_live.fleet.interface import Connection, Interface
 from mrpbench_live.fleet.paths import FleetPaths, FleetState
 from mrpbench_live.fleet.site import Site
 from mrpbench_live.vda5050.battery import Battery
+from mrpbench_live.vda5050.condition import Here
 from mrpbench_live.vda5050.instant import InstantActions
 from mrpbench_live.vda5050.messages import Headers, factsheet_of, position_of, state_of, velocity_of
 from mrpbench_live.vda5050.names import VERSIONS, Names
 from mrpbench_live.vda5050.schemas import validator
 from mrpbench_live.vda5050.track import Track
-from mrpbench_live.vda5050.vehicle import Here, Vehicle
+from mrpbench_live.vda5050.vehicle import Vehicle
 from mrpbench_live.vda5050.wire import Broker, Client, Wire
 
 LEAST_INTERVAL = 0.1

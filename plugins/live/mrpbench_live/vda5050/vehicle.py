@@ -7,11 +7,10 @@ is cancelled or when it is paused (6.1.3).
 from collections.abc import Callable, Mapping
 from typing import Any
 
-import attrs
-
 from mrpbench_live.vda5050 import orders
 from mrpbench_live.vda5050.actions import STANDING, Action, ActionQueue
 from mrpbench_live.vda5050.battery import Battery
+from mrpbench_live.vda5050.condition import Error, Here
 from mrpbench_live.vda5050.names import Names
 from mrpbench_live.vda5050.orders import Edge, Node, RefusedError
 from mrpbench_live.vda5050.scopes import SCOPES
@@ -25,33 +24,6 @@ AT_ONCE = "startCharging", "stopCharging"
 """Actions that take no time."""
 UNTIL_NEXT_ORDER, UNTIL_NEXT_INSTANT_ACTION, UNTIL_AVAILABLE = "order", "instantAction", "available"
 """What ends an error."""
-
-
-@attrs.frozen(kw_only=True)
-class Here:
-    """A vehicle at one time."""
-
-    now: float
-    """simulated seconds."""
-    pose: tuple[float, float, float]
-    """x, y (metres), yaw (radians)."""
-    level: int
-    driving: bool
-    gave_up: bool
-    """It cannot drive any more."""
-    velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
-
-
-@attrs.frozen(kw_only=True)
-class Error:
-    """An error that a vehicle reports."""
-
-    type: str
-    level: str
-    description: str
-    references: Mapping[str, str]
-    until: str
-    """What ends it."""
 
 
 class Vehicle:
@@ -120,6 +92,8 @@ class Vehicle:
         if not same and not self.idle:
             assert self.order is not None
             raise RefusedError("OTHER_ORDER_ACTIVE", f"the order {self.order['orderId']!r} is active", refers)
+        if not same:
+            self._check_start(message)
         orders.check_fields(message, self._names, self._track.has_headings)
         orders.check_actions(message, SCOPES)
         nodes, edges = orders.read_nodes(message, self._track, self._names), orders.read_edges(message)
@@ -148,14 +122,7 @@ class Vehicle:
 
     def _begin(self, message: Mapping[str, Any], nodes: list[Node], edges: list[Edge]) -> None:
         """Take over a new order."""
-        refers = orders.references(message)
-        if message["orderUpdateId"]:
-            raise RefusedError("VALIDATION_FAILURE", "a new order begins with the orderUpdateId 0", refers)
         first = nodes[0]
-        away = distance(self.here.pose, first.position)
-        if away > max(START_RANGE, first.deviation or 0.0) or not self._on_map(first):
-            what = f"node {first.id!r} is {away:.2f} m away"
-            raise RefusedError("START_NODE_OUT_OF_RANGE", what, refers | {"nodeId": first.id})
         ways = self._ways(message, self._track.end, nodes[1:])
         first.mark = self._track.length
         self._track.replace(first.mark, nodes[1:], ways)
@@ -193,9 +160,28 @@ class Vehicle:
             raise RefusedError("NO_ROUTE_TO_TARGET", f"no way leads to node {ways.id!r}", refers)
         return ways
 
-    def _on_map(self, node: Node) -> bool:
-        position = node.message.get("nodePosition")
-        return position is None or self._track.maps[self.here.level] == position["mapId"]
+    def _check_start(self, message: Mapping[str, Any]) -> None:
+        """Check that a new order begins where the vehicle is; a map that does not exist is found later.
+
+        Raises:
+            RefusedError: it begins elsewhere, or is an update of an order that the vehicle does not have.
+        """
+        refers, node = orders.references(message), message["nodes"][0]
+        if message["orderUpdateId"]:
+            raise RefusedError("VALIDATION_FAILURE", "a new order begins with the orderUpdateId 0", refers)
+        position = node.get("nodePosition")
+        if position is None:
+            place = self._track.locate(node)
+            away, within = (0.0 if place is None else distance(self.here.pose, place[1])), START_RANGE
+        elif position["mapId"] in self._track.maps:
+            away = distance(self.here.pose, (position["x"], position["y"]))
+            away = away if self._track.maps[self.here.level] == position["mapId"] else float("inf")
+            within = max(START_RANGE, self._names.deviation(position) or 0.0)
+        else:
+            return
+        if away > within:
+            what = f"node {node['nodeId']!r} is {away:.2f} m away"
+            raise RefusedError("START_NODE_OUT_OF_RANGE", what, refers | {"nodeId": node["nodeId"]})
 
     def _register(self, nodes: list[Node], edges: list[Edge]) -> None:
         self.actions |= {action.id: action for part in (*nodes, *edges) for action in part.actions}

@@ -1,66 +1,21 @@
 """A fleet control that we did not write drives the vehicles of a run over a broker: `vda5050-sdk` from PyPI."""
 
 import asyncio
-import json
 import os
-import subprocess
-import sys
+import time
 
 import numpy as np
 import pytest
-
-from mrpbench_core.store.folder import ResultsFolder
-from mrpbench_core.store.recording import Recording
-from mrpbench_core.store.results import Results
+from mrpbench_live.vda5050.check.control import ControlCheck
+from mrpbench_live.vda5050.check.rules import BROKEN, PASSED
 
 vda5050 = pytest.importorskip("vda5050", reason="vda5050-sdk is not installed")
 pytest.importorskip("aiomqtt", reason="aiomqtt, by which vda5050-sdk speaks, is not installed")
 pytest.importorskip("paho.mqtt", reason="mrpbench-live[vda5050] is not installed")
 
-MAP = "type octile\nheight 10\nwidth 12\nmap\n" + "............\n" * 10
-STUDY = {
-    "name": "live",
-    "world": {"plugin": "movingai", "file": "free.map"},
-    "roadmap": "grid",
-    "scenario": {"plugin": "random", "robots": 3},
-    "simulator": "planar",
-    "planner": "prioritized",
-    "control_rate": "10 Hz",
-    "metrics": ["execution"],
-}
 ORDERS = int(os.environ.get("MRPBENCH_LIVE_ORDERS", "2"))
 """Orders of each vehicle; `make live` sends more."""
 ROBOTS = ("robot_0", "robot_1", "robot_2")
-
-
-@pytest.fixture
-def serve(tmp_path, broker):
-    """Serve the study in a process of its own; returns its record and recording when it has ended."""
-    (tmp_path / "free.map").write_text(MAP)
-    (tmp_path / "study.yaml").write_text(json.dumps(STUDY))
-    running = []
-
-    def start(seconds, version, pace):
-        words = ["serve", "study.yaml", "--vda5050", broker.url, "--version", version, "--pace", str(pace)]
-        code = "import sys; from mrpbench_core.cli.main import main; sys.exit(main(sys.argv[1:]))"
-        command = [sys.executable, "-c", code, *words, "--duration", f"{seconds} s"]
-        running.append(subprocess.Popen(command, cwd=tmp_path))
-        return running[-1]
-
-    def result():
-        assert running[-1].wait(60) == 0
-        folder = Results(ResultsFolder(tmp_path / "results" / "live"))
-        (record,) = folder
-        found = Recording(folder.folder.run(record["run_id"]).recording)
-        columns = (found.channels[f"event_{key}"]().tolist() for key in ("kind", "robot", "detail"))
-        events = list(zip(*columns, strict=True))
-        found.close()
-        return record, events
-
-    yield start, result
-    for process in running:
-        process.kill()
-        process.wait()
 
 
 class Master:
@@ -108,19 +63,34 @@ class Master:
 
 
 async def drive_all(url, orders):
+    """Drive, while a check of the fleet control listens; return the master and the check."""
+    check = ControlCheck(url, "2.1", "")
+    check.connect()
     config = vda5050.MasterConfig(broker_url=url, validate_messages=True)
     async with vda5050.MasterClient(config) as client:
         master = Master(client, orders)
-        await asyncio.gather(*(master.drive(serial) for serial in ROBOTS))
-        return master
+        driving = asyncio.gather(*(master.drive(serial) for serial in ROBOTS))
+        while not driving.done():
+            check.listen(time.monotonic())
+            await asyncio.sleep(0.01)
+        await driving
+        return master, check
 
 
 def test_a_foreign_fleet_control_drives_orders_with_updates_and_cancels(serve, broker):
-    start, result = serve
+    start, result, _ = serve
     start(12 * ORDERS + 12, "2.1", 6)
-    master = asyncio.run(drive_all(broker.url, ORDERS))
+    master, check = asyncio.run(drive_all(broker.url, ORDERS))
     assert master.errors == []
     assert master.issues == []
+    verdicts = {name: finding.verdict for name, finding in check.report.findings.items()}
+    assert {name for name, verdict in verdicts.items() if verdict == PASSED} >= {
+        "schema",
+        "stitching",
+        "idle",
+        "accepted",
+    }
+    assert BROKEN not in verdicts.values()
     record, events = result()
     assert record["status"] == "succeeded"
     assert record["provenance"]["live"] is True
@@ -131,4 +101,3 @@ def test_a_foreign_fleet_control_drives_orders_with_updates_and_cancels(serve, b
     away = [float(detail.split()[2]) for kind, _, detail in events if kind == "node_traversed"]
     assert len(away) >= 3 * ORDERS
     assert np.max(away) <= 0.5
-    assert record["metrics"]["execution.robot_contacts"] >= 0
