@@ -10,6 +10,9 @@ from mrpbench_core.api import Fleet, Roadmap, World
 REACH = 0.5
 """Metres from a vertex of the roadmap within which a position means this vertex; on a raster, its cell."""
 
+FARTHEST = 1e6
+"""Metres from the origin beyond which there is no vertex, whatever a message says."""
+
 
 class Site:
     """A roadmap as protocols see it.
@@ -22,6 +25,8 @@ class Site:
 
     def __init__(self, world: World, roadmap: Roadmap, fleet: Fleet) -> None:
         self.world, self.roadmap, self.fleet = world, roadmap, fleet
+        self.robots, self.profiles = fleet.names, fleet.profiles[1]
+        """The name and the motion profile of each robot."""
         self.levels = [level.name or f"level_{index}" for index, level in enumerate(world.levels)]
         """The name of each level."""
         self.level_of = {name: index for index, name in enumerate(self.levels)}
@@ -33,6 +38,9 @@ class Site:
         self.name_of = {vertex: name for name, vertex in names.items()}
         self.has_headings = not bool(np.isnan(roadmap.heading).all())
         """Vertices prescribe yaws."""
+        cells = [] if roadmap.grid is None else roadmap.grid.cell.tolist()
+        self._cells = {(row, column): vertex for vertex, (row, column) in reversed(list(enumerate(cells)))}
+        """On a raster, the first vertex of each cell."""
         self._guarded = {
             edge
             for resource in roadmap.resources
@@ -46,9 +54,11 @@ class Site:
 
     def nearest(self, x: float, y: float, level: int) -> int | None:
         """Return the vertex that a position (metres) on a level means, or None if there is none there."""
-        if self.roadmap.grid is not None:
-            vertex = int(self.roadmap.locate(np.array([[x, y]]), np.array([level], np.int16))[0])
-            return vertex if vertex >= 0 else None
+        if not (abs(x) <= FARTHEST and abs(y) <= FARTHEST):
+            return None
+        if (grid := self.roadmap.grid) is not None:
+            column, row = np.floor((np.array([x, y]) - grid.origin) / grid.cell_size).astype(int).tolist()
+            return self._cells.get((row, column)) if level == self.roadmap.level[0] else None
         found, distance = self.roadmap.nearest(x, y, level)
         return found if distance <= REACH else None
 

@@ -10,6 +10,7 @@ import numpy as np
 from attrs.validators import ge, gt
 
 from mrpbench_core.api import Event, option
+from mrpbench_core.files.printing import printable
 from mrpbench_live.fleet.interface import Connection, Interface
 from mrpbench_live.fleet.paths import FleetPaths, FleetState
 from mrpbench_live.fleet.site import Site
@@ -27,8 +28,8 @@ LEAST_INTERVAL = 0.1
 """Seconds between two states of a vehicle at least."""
 CONNECTING_S = 30.0
 """Seconds within which all vehicles have to be connected."""
-LARGEST = 4_000_000
-"""Bytes of a message at most."""
+LARGEST, LONGEST = 4_000_000, 300
+"""Bytes of a message, and characters of what the recording says of it, at most."""
 
 
 @attrs.frozen(kw_only=True)
@@ -64,7 +65,8 @@ class VdaFleet(Connection):
         self._wire = Wire(Broker.of(recipe.url))
         self._paths, self._events, self._now = paths, [], 0.0
         self._members = [_Member(self, recipe, site, paths, robot) for robot in range(len(site.fleet))]
-        self._passed = paths.passed.copy()
+        self._facts = np.full((3, len(site.fleet)), -1)
+        """i8[3,n] what the vehicles knew last: moves that they have made, whether they drive, whether they gave up."""
         for member in self._members:
             self._wire.add(member.client)
             self._wire.serve(0.0)
@@ -74,24 +76,27 @@ class VdaFleet(Connection):
 
     def note(self, robot: int, kind: str, detail: str) -> None:
         """Add an event to the recording."""
-        self._events.append(Event(stamp=self._now, kind=kind, robot=robot, detail=detail))
+        self._events.append(Event(stamp=self._now, kind=kind, robot=robot, detail=printable(detail)[:LONGEST]))
 
     def exchange(self, state: FleetState, due: float) -> Sequence[Event]:
         """Advance all vehicles, send what they have to say, and take in what waits or comes until `due`."""
-        self._now = state.now
-        poses, levels, velocities = state.pose.tolist(), state.level.tolist(), state.velocity.tolist()
-        driving, gave_up = state.driving.tolist(), state.gave_up.tolist()
-        for robot, member in enumerate(self._members):
-            member.advance(
-                Here(
-                    now=state.now,
-                    pose=tuple(poses[robot]),
-                    level=levels[robot],
-                    driving=driving[robot],
-                    gave_up=gave_up[robot],
-                    velocity=tuple(velocities[robot]),
-                )
+        self._now, now = state.now, time.monotonic()
+        facts = np.stack([self._paths.passed, state.driving, state.gave_up])
+        other = (facts != self._facts).any(axis=0)
+        self._facts = facts
+        waiting = np.array([member.restless or now >= member.due for member in self._members])
+        for robot in np.flatnonzero(other | waiting).tolist():
+            x, y, yaw = state.pose[robot].tolist()
+            vx, vy, omega = state.velocity[robot].tolist()
+            here = Here(
+                now=state.now,
+                pose=(x, y, yaw),
+                level=int(state.level[robot]),
+                driving=bool(state.driving[robot]),
+                gave_up=bool(state.gave_up[robot]),
+                velocity=(vx, vy, omega),
             )
+            self._members[robot].advance(here, now)
         self._wire.serve(due)
         events, self._events = self._events, []
         return events
@@ -109,7 +114,7 @@ class _Member:
     def __init__(self, fleet: VdaFleet, recipe: Vda5050, site: Site, paths: FleetPaths, robot: int) -> None:
         self._names: Names = VERSIONS[recipe.version]
         self._maps, self._robot, self._headings = site.levels, site.fleet.robots[robot], site.has_headings
-        serial = site.fleet.names[robot]
+        serial = site.robots[robot]
         self._topic = f"{recipe.topics or self._names.topics}/{recipe.manufacturer}/{serial}/"
         self._headers = Headers(self._names.version, recipe.manufacturer, serial)
         self._intervals = LEAST_INTERVAL, recipe.state_interval, recipe.visualization_interval
@@ -126,7 +131,7 @@ class _Member:
         self._instant = InstantActions(self._vehicle, track, self._names, note)
         now = time.monotonic()
         self._state_at = now + recipe.state_interval * (robot % 97) / 97  # not all at once
-        self._visualization_at = now if recipe.visualization_interval else np.inf
+        self._visualization_at = now if recipe.visualization_interval else float("inf")
         self._not_before = 0.0
         will = {**self._headers.next("connection"), "connectionState": self._names.connection_broken}
         self.client = Client(
@@ -138,11 +143,20 @@ class _Member:
             self._take,
         )
 
-    def advance(self, here: Here) -> None:
-        """Go on, and send what is due."""
+    @property
+    def due(self) -> float:
+        """The time of `time.monotonic` at which a message is due."""
+        return min(self._state_at, self._visualization_at)
+
+    @property
+    def restless(self) -> bool:
+        """True if something may happen although the vehicle is where it was; see `Vehicle.restless`."""
+        return self._vehicle.restless
+
+    def advance(self, here: Here, now: float) -> None:
+        """Go on, and send what is due at `now`."""
         vehicle = self._vehicle
         vehicle.advance(here)
-        now = time.monotonic()
         if vehicle.wants_factsheet:
             vehicle.wants_factsheet = False
             self._send_factsheet()

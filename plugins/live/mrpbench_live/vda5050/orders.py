@@ -141,6 +141,10 @@ def check_structure(order: Mapping[str, Any]) -> None:
         refuse(f"sequenceId {first + base} is not released, and one after it is")
     if base % 2 == 0:
         refuse(f"the edge with the sequenceId {first + base - 1} is released without its end node")
+    for edge in edges:
+        speed = edge.get("maximumSpeed", edge.get("maxSpeed", 1.0))
+        if not 0 < speed < float("inf"):
+            refuse(f"{edge['edgeId']!r} has the maximum speed {speed}")
     seen: set[str] = set()
     for part in merged:
         for action in part["actions"]:

@@ -21,8 +21,7 @@ class Track:
 
     def __init__(self, site: Site, paths: FleetPaths, robot: int) -> None:
         self._site, self._paths, self._robot = site, paths, robot
-        models = site.fleet.profiles[1]
-        self._profile = models[robot]
+        self._profile = site.profiles[robot]
 
     @property
     def maps(self) -> Sequence[str]:

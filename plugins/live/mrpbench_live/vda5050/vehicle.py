@@ -63,7 +63,7 @@ class Vehicle:
         self.pause: Action | None = None
         """The instant action that ends when the paused vehicle stands."""
         self._cancel: Action | None = None
-        self._cancelled = False
+        self._cancelled = self._has_horizon = False
         self.queue = ActionQueue()
         """The actions of the order that were triggered."""
         self.changed = True
@@ -194,6 +194,12 @@ class Vehicle:
 
     # Time
 
+    @property
+    def restless(self) -> bool:
+        """True if something may happen to the vehicle although it neither passes a node nor begins or ends to drive."""
+        waits = self.pause is not None and not self.pause.ended
+        return self.changed or waits or bool(self.queue) or self._cancel is not None or self._has_horizon
+
     def advance(self, here: Here) -> None:
         """Go on to another time: traverse nodes, perform actions, and decide how far the vehicle may drive."""
         before, self.here = self.here, here
@@ -293,7 +299,8 @@ class Vehicle:
         if self.edges:
             speed = float(self.edges[0].message.get(self._names.maximum_speed, speed))
         self._track.allow(limit, speed)
-        asks = self._cancel is None and any(not node.released for node in self.nodes) and self._base_is_short()
+        self._has_horizon = bool(self.nodes) and not self.nodes[-1].released
+        asks = self._cancel is None and self._has_horizon and self._base_is_short()
         if asks != self.new_base:
             self.new_base, self.changed = asks, True
 

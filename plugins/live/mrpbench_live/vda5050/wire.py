@@ -124,6 +124,8 @@ class Wire:
         self._paho, self._broker = paho, broker
         self._selector = selectors.DefaultSelector()
         self._clients: list[Client] = []
+        self._waiting: dict[Any, Client] = {}
+        """Sockets that could not take all that there is to send."""
         self._retry_at = self._misc_at = 0.0
 
     def new(self, name: str) -> Any:
@@ -172,6 +174,8 @@ class Wire:
                 return
             self._keep(now)
             waited = True
+            for sock in list(self._waiting):
+                self._selector.modify(sock, selectors.EVENT_READ | selectors.EVENT_WRITE, self._waiting[sock])
             for key, mask in self._selector.select(max(0.0, min(left, MISC_S))):
                 mqtt = key.data.mqtt
                 if mask & selectors.EVENT_READ:
@@ -214,10 +218,15 @@ class Wire:
 
     def closed(self, sock: Any) -> None:
         """Serve a socket no longer."""
-        if self._selector.get_map() and sock in self._selector.get_map():
+        self._waiting.pop(sock, None)
+        if sock in (self._selector.get_map() or {}):
             self._selector.unregister(sock)
 
     def writes(self, client: Client, sock: Any, waits: bool) -> None:
-        """Wait until a socket can be written to, or no longer."""
-        if self._selector.get_map() and sock in self._selector.get_map():
-            self._selector.modify(sock, selectors.EVENT_READ | (selectors.EVENT_WRITE if waits else 0), client)
+        """Wait until a socket can be written to, or no longer; most take all at once."""
+        if waits:
+            self._waiting[sock] = client
+        elif self._waiting.pop(sock, None) is not None and sock in (self._selector.get_map() or {}):
+            key = self._selector.get_key(sock)
+            if key.events & selectors.EVENT_WRITE:
+                self._selector.modify(sock, selectors.EVENT_READ, client)
