@@ -25,10 +25,10 @@ def continued(problem: Problem, paths: FleetPaths) -> Plan:
     total = np.concatenate([[0], np.cumsum(spent)])
     first = np.concatenate([[0], np.cumsum(size)])
     enter = begin[robot] + total[:-1] - total[first[robot]]
-    moves = Paths(first=first, edge=edge, enter=enter, leave=enter + spent)
+    moves = Paths(first=first, edge=edge.astype(np.int32), enter=enter, leave=enter + spent)
     still = Paths(
         first=np.concatenate([[0], np.cumsum(waits)]),
-        edge=np.full(int(waits.sum()), -1),
+        edge=np.full(int(waits.sum()), -1, np.int32),
         enter=ends[waits],
         leave=problem.ready[waits],
     )
@@ -37,7 +37,7 @@ def continued(problem: Problem, paths: FleetPaths) -> Plan:
 
 def _empty(robots: int) -> Paths:
     nothing = np.zeros(0, np.int64)
-    return Paths(first=np.zeros(robots + 1, np.int64), edge=nothing, enter=nothing, leave=nothing)
+    return Paths(first=np.zeros(robots + 1, np.int64), edge=np.zeros(0, np.int32), enter=nothing, leave=nothing)
 
 
 class PlannedMoves:

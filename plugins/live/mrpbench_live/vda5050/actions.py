@@ -51,9 +51,6 @@ class ActionQueue:
     def __bool__(self) -> bool:
         return bool(self._queue)
 
-    def __iter__(self) -> Iterable[Action]:  # type: ignore[override]
-        return iter(self._queue)
-
     @property
     def standing(self) -> bool:
         """True if the vehicle must stand, because of an action that runs or waits."""

@@ -185,7 +185,7 @@ class _Member:
         self._send("factsheet", factsheet_of(self._robot, self._names, self._intervals, self._headings), retain=True)
 
     def _visualization(self) -> dict[str, Any]:
-        found = {
+        found: dict[str, Any] = {
             self._names.position: position_of(self._vehicle, self._maps, self._names),
             "velocity": velocity_of(self._vehicle),
         }
@@ -201,14 +201,13 @@ class _Member:
 
     def _take(self, topic: str, payload: bytes) -> None:
         """Take in a message of the fleet control, whatever it is."""
+        message, fault = None, None
         try:
             if len(payload) > LARGEST:
                 raise ValueError(f"{len(payload)} bytes are more than {LARGEST}")
             message = json.loads(payload)
         except (ValueError, RecursionError) as error:  # text in another encoding is a ValueError, too
-            message, fault = None, f"the message is not JSON: {error}"
-        else:
-            fault = None
+            fault = f"the message is not JSON: {error}"
         kind = topic.rpartition("/")[2]
         if kind == "order":
             self._vehicle.take_order(message, fault or self._order_fault(message))

@@ -144,7 +144,8 @@ class Vehicle:
             raise RefusedError("NO_STITCHING", f"{what}{decision.sequence}", refers | {"nodeId": first.id})
         ways = self._ways(message, self._track.end_after(decision.mark), nodes[1:])
         self._track.replace(decision.mark, nodes[1:], ways)
-        horizon = {action.id for part in (*self.nodes, *self.edges) if not part.released for action in part.actions}
+        left: list[Node | Edge] = [*self.nodes, *self.edges]
+        horizon = {action.id for part in left if not part.released for action in part.actions}
         self.actions = {key: action for key, action in self.actions.items() if key not in horizon}
         self.nodes = [node for node in self.nodes if node.released] + nodes[1:]
         self.edges = [edge for edge in self.edges if edge.released] + edges
@@ -184,7 +185,8 @@ class Vehicle:
             raise RefusedError("START_NODE_OUT_OF_RANGE", what, refers | {"nodeId": node["nodeId"]})
 
     def _register(self, nodes: list[Node], edges: list[Edge]) -> None:
-        self.actions |= {action.id: action for part in (*nodes, *edges) for action in part.actions}
+        parts: list[Node | Edge] = [*nodes, *edges]
+        self.actions |= {action.id: action for part in parts for action in part.actions}
 
     @property
     def idle(self) -> bool:
