@@ -148,10 +148,10 @@ ros: ## test live ROS 2, with rclpy from PyPI in its own environment (Python 3.1
 	$(ROS)/python -m pytest -p no:cacheprovider plugins/bridges/ros2
 
 LIVE := build/live/bin
-live: ## drive vehicles of VDA 5050 by vda5050-sdk, 50 orders each, in an environment of its own; needs mosquitto
+live: ## drive vehicles of VDA 5050 by vda5050-sdk, 50 orders each, and send 100,000 broken messages, in an environment of its own; needs mosquitto
 	test -x $(LIVE)/python || $(PYTHON) -m venv build/live
 	$(LIVE)/python -m pip install --quiet pytest pytest-timeout vda5050-sdk aiomqtt -e . ./native -e plugins -e 'plugins/live[vda5050]'
-	MRPBENCH_LIVE_ORDERS=50 $(LIVE)/python -m pytest -p no:cacheprovider plugins/live
+	MRPBENCH_LIVE_ORDERS=50 MRPBENCH_LIVE_MESSAGES=100000 $(LIVE)/python -m pytest -p no:cacheprovider plugins/live
 
 slurm: install ## run the array job of the page on clusters on a SLURM cluster of this machine (Debian, root; five minutes)
 	$(BIN)/python scripts/slurm.py

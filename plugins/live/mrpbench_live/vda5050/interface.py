@@ -17,7 +17,7 @@ from mrpbench_live.fleet.site import Site
 from mrpbench_live.vda5050.battery import Battery
 from mrpbench_live.vda5050.condition import Here
 from mrpbench_live.vda5050.instant import InstantActions
-from mrpbench_live.vda5050.messages import Headers, factsheet_of, position_of, state_of, velocity_of
+from mrpbench_live.vda5050.messages import Headers, factsheet_of, position_of, read, state_of, velocity_of
 from mrpbench_live.vda5050.names import VERSIONS, Names
 from mrpbench_live.vda5050.schemas import validator
 from mrpbench_live.vda5050.track import Track
@@ -28,8 +28,8 @@ LEAST_INTERVAL = 0.1
 """Seconds between two states of a vehicle at least."""
 CONNECTING_S = 30.0
 """Seconds within which all vehicles have to be connected."""
-LARGEST, LONGEST = 4_000_000, 300
-"""Bytes of a message, and characters of what the recording says of it, at most."""
+LONGEST = 300
+"""Characters of what the recording says of a message, at most."""
 
 
 @attrs.frozen(kw_only=True)
@@ -201,13 +201,7 @@ class _Member:
 
     def _take(self, topic: str, payload: bytes) -> None:
         """Take in a message of the fleet control, whatever it is."""
-        message, fault = None, None
-        try:
-            if len(payload) > LARGEST:
-                raise ValueError(f"{len(payload)} bytes are more than {LARGEST}")
-            message = json.loads(payload)
-        except (ValueError, RecursionError) as error:  # text in another encoding is a ValueError, too
-            fault = f"the message is not JSON: {error}"
+        message, fault = read(payload)
         kind = topic.rpartition("/")[2]
         if kind == "order":
             self._vehicle.take_order(message, fault or self._order_fault(message))

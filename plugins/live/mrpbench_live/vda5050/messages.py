@@ -1,5 +1,6 @@
 """The messages of a vehicle: state, visualization, connection and factsheet."""
 
+import json
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Any
@@ -10,6 +11,8 @@ from mrpbench_live.vda5050.names import Names
 from mrpbench_live.vda5050.scopes import SCOPES
 from mrpbench_live.vda5050.vehicle import Vehicle
 
+LARGEST = 4_000_000
+"""Bytes of a message at most."""
 _OPTIONAL = (
     "nodes.nodePosition",
     "nodes.nodePosition.allowedDeviationXY",
@@ -42,6 +45,16 @@ class Headers:
     def last(self, topic: str) -> int:
         """Return the number of the last message on a topic, 0 if there was none."""
         return max(0, self._counts.get(topic, 0))
+
+
+def read(payload: bytes) -> tuple[Any, str | None]:
+    """Read a message of a fleet control, whatever it is; the second value says why that is impossible, or None."""
+    if len(payload) > LARGEST:
+        return None, f"{len(payload)} bytes are more than {LARGEST}"
+    try:
+        return json.loads(payload), None
+    except (ValueError, RecursionError) as error:  # text in another encoding is a ValueError, too
+        return None, f"the message is not JSON: {error}"
 
 
 def timestamp() -> str:
