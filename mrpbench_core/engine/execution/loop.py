@@ -102,6 +102,10 @@ class ExecutionLoop(ControlLoop):
             mode=np.full(robots, Mode.WAITING, "u1"),
         )
 
+    def close(self) -> None:
+        """End what takes part in the execution besides the simulation."""
+        self._dispatcher.close()
+
     def _sense(self) -> None:
         inputs, state = self._inputs, self._state
         odometry = inputs.noise.odometry(state)

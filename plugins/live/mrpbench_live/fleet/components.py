@@ -4,7 +4,6 @@ A run has a process of its own, so its three components share one `_Run`.
 """
 
 import sys
-import weakref
 from collections.abc import Sequence
 from typing import ClassVar
 
@@ -129,7 +128,6 @@ class LiveSession(DispatcherSession):
         self._changed_at = -np.inf
         self._before: tuple[float, np.ndarray] | None = None
         self._connection = recipe.interface.connect(site, paths)
-        self._close = weakref.finalize(self, self._connection.close)
 
     def update(self, now: float, view: FleetView) -> Orders:
         """Report the fleet, wait until `now` is due, and release."""
@@ -157,6 +155,10 @@ class LiveSession(DispatcherSession):
             raise DispatchError("the plan does not have the paths of the outside party: use `planner: live`")
         self._paths.changed.clear()
         self._paths.forget(self._moves.base)
+
+    def close(self) -> None:
+        """Leave the outside party."""
+        self._connection.close()
 
     def _state(self, now: float, view: FleetView) -> FleetState:
         """The fleet as protocols report it."""

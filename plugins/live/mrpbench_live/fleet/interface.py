@@ -28,7 +28,7 @@ class Connection(ABC):
 
     @abstractmethod
     def close(self) -> None:
-        """Leave the outside party in an orderly way; may be called twice."""
+        """Leave the outside party in an orderly way."""
 
 
 class Interface(Component):

@@ -84,14 +84,13 @@ class Client:
         self.mqtt.on_disconnect = self._lost
         self.mqtt.on_message = lambda _client, _data, message: take(message.topic, message.payload)
         self.mqtt.on_socket_open = lambda _client, _data, sock: wire.opened(self, sock)
-        self.mqtt.on_socket_close = lambda _client, _data, sock: wire.closed(sock)
-        self.mqtt.on_socket_register_write = lambda _client, _data, sock: wire.writes(self, sock, True)
-        self.mqtt.on_socket_unregister_write = lambda _client, _data, sock: wire.writes(self, sock, False)
+        self.mqtt.on_socket_close = lambda _client, _data, sock: wire.closed(self, sock)
 
     def publish(self, topic: str, payload: bytes, qos: int = 0, retain: bool = False) -> bool:
         """Send a message; tell whether there is a connection to send it by."""
         if self.connected:
             self.mqtt.publish(topic, payload, qos=qos, retain=retain)
+            self._wire.flush(self)
         return self.connected
 
     def _connected(self, _client: Any, _data: Any, _flags: Any, reason: Any, _properties: Any) -> None:
@@ -124,8 +123,8 @@ class Wire:
         self._paho, self._broker = paho, broker
         self._selector = selectors.DefaultSelector()
         self._clients: list[Client] = []
-        self._waiting: dict[Any, Client] = {}
-        """Sockets that could not take all that there is to send."""
+        self._waiting: set[Client] = set()
+        """Those whose sockets could not take all that there is to send."""
         self._retry_at = self._misc_at = 0.0
 
     def new(self, name: str) -> Any:
@@ -174,14 +173,21 @@ class Wire:
                 return
             self._keep(now)
             waited = True
-            for sock in list(self._waiting):
-                self._selector.modify(sock, selectors.EVENT_READ | selectors.EVENT_WRITE, self._waiting[sock])
             for key, mask in self._selector.select(max(0.0, min(left, MISC_S))):
-                mqtt = key.data.mqtt
+                client = key.data
                 if mask & selectors.EVENT_READ:
-                    mqtt.loop_read()
-                if mask & selectors.EVENT_WRITE and mqtt.want_write():
-                    mqtt.loop_write()
+                    client.mqtt.loop_read()
+                self.flush(client)
+
+    def flush(self, client: Client) -> None:
+        """Write what a client has to send, as far as its socket takes it; the rest follows in `serve`."""
+        mqtt = client.mqtt
+        if mqtt.want_write():
+            mqtt.loop_write()
+        waits = bool(mqtt.want_write())
+        if waits != (client in self._waiting) and (sock := mqtt.socket()) is not None:
+            self._selector.modify(sock, selectors.EVENT_READ | (selectors.EVENT_WRITE if waits else 0), client)
+            (self._waiting.add if waits else self._waiting.discard)(client)
 
     def _keep(self, now: float) -> None:
         """Keep connections alive, and connect again what was lost."""
@@ -209,6 +215,7 @@ class Wire:
             self.serve(time.monotonic() + 0.01)
         for client in self._clients:
             client.mqtt.disconnect()
+            self.flush(client)
         self._clients = []
         self._selector.close()
 
@@ -216,17 +223,8 @@ class Wire:
         """Serve a socket."""
         self._selector.register(sock, selectors.EVENT_READ, client)
 
-    def closed(self, sock: Any) -> None:
+    def closed(self, client: Client, sock: Any) -> None:
         """Serve a socket no longer."""
-        self._waiting.pop(sock, None)
+        self._waiting.discard(client)
         if sock in (self._selector.get_map() or {}):
             self._selector.unregister(sock)
-
-    def writes(self, client: Client, sock: Any, waits: bool) -> None:
-        """Wait until a socket can be written to, or no longer; most take all at once."""
-        if waits:
-            self._waiting[sock] = client
-        elif self._waiting.pop(sock, None) is not None and sock in (self._selector.get_map() or {}):
-            key = self._selector.get_key(sock)
-            if key.events & selectors.EVENT_WRITE:
-                self._selector.modify(sock, selectors.EVENT_READ, client)

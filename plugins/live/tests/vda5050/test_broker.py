@@ -74,8 +74,13 @@ def test_a_killed_broker_stops_vehicles_at_the_end_of_their_base(serve, broker):
     assert (state["lastNodeId"], len(state["nodeStates"]), state["driving"]) == ("n2", 2, False)
     control.order(places[2:], base=3, update=1, first=4)
     control.wait(lambda it: it["state"]["lastNodeId"] == "n4" and not it["state"]["nodeStates"])
+    control.wait(lambda it: it["connection"]["connectionState"] == "OFFLINE")
     control.wire.close()
     record, events = result()
+    late = Control(broker.url)
+    late.wait(lambda it: "connection" in it)
+    assert late.newest["connection"]["connectionState"] == "OFFLINE"  # and stays so: there was no last will
+    late.wire.close()
     assert record["status"] == "succeeded"
     assert record["metrics"]["execution.robot_contacts"] == 0
     assert [detail.split()[0] for kind, _, detail in events if kind == "node_traversed"] == ["n1", "n2", "n3", "n4"]
