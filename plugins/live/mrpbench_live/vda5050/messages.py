@@ -1,6 +1,7 @@
 """The messages of a vehicle: state, visualization, connection and factsheet."""
 
 import json
+import math
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Any
@@ -11,6 +12,8 @@ from mrpbench_live.vda5050.names import Names
 from mrpbench_live.vda5050.scopes import SCOPES
 from mrpbench_live.vda5050.vehicle import Vehicle
 
+LARGEST_THETA = 3.1415
+"""Radians: what is nearer to half a turn would be rounded to more than the schemas allow."""
 LARGEST = 4_000_000
 """Bytes of a message at most."""
 _OPTIONAL = (
@@ -65,7 +68,8 @@ def timestamp() -> str:
 def position_of(vehicle: Vehicle, maps: Sequence[str], names: Names) -> dict[str, Any]:
     """Return where a vehicle is."""
     x, y, yaw = vehicle.here.pose
-    place = {"x": round(x, 4), "y": round(y, 4), "theta": round(yaw, 4)}
+    theta = min(max(round(math.remainder(yaw, 2 * math.pi), 4), -LARGEST_THETA), LARGEST_THETA)
+    place = {"x": round(x, 4), "y": round(y, 4), "theta": theta}
     return {**place, "mapId": maps[vehicle.here.level], names.localized: True}
 
 

@@ -1,6 +1,9 @@
 """Actions on nodes and edges, pauses, loads and batteries."""
 
+import math
+
 import pytest
+from mrpbench_live.vda5050.condition import Here
 
 
 def status(state, id, instant=False):
@@ -110,3 +113,10 @@ def test_speed_limits_of_edges_hold(bench):
     assert bench.paths.speed[0] == 0.3
     bench.drive()
     assert bench.paths.speed[0] == float("inf")
+
+
+@pytest.mark.parametrize("yaw", [math.pi, -math.pi, 3.14159, 4.0, -7.0, 0.5])
+def test_orientations_are_within_half_a_turn(bench, yaw):
+    bench.vehicle.advance(Here(now=1.0, pose=(0.0, 0.0, yaw), level=0, driving=False, gave_up=False))
+    theta = bench.state()[bench.names.position]["theta"]
+    assert math.remainder(theta - yaw, 2 * math.pi) == pytest.approx(0.0, abs=1e-3)
