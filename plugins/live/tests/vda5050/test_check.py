@@ -10,11 +10,10 @@ pytest.importorskip("paho.mqtt", reason="mrpbench-live[vda5050] is not installed
 ROOT = "vda5050/v3/mrpbench/robot_0/"
 
 
-@pytest.mark.parametrize("version", ["2.1", "3.0"])
-def test_our_vehicles_keep_every_rule(serve, broker, version):
+def test_our_vehicles_keep_every_rule(serve, broker):  # of 2.1; those of 3.0 are asked by `test_how_to.py`
     start, result, mrpbench = serve
-    start(36, version, 6)
-    words = ["--version", version, "--vehicle", "mrpbench/robot_0", "--seconds", "2", "--json"]
+    start(36, "2.1", 6)
+    words = ["--version", "2.1", "--vehicle", "mrpbench/robot_0", "--seconds", "2", "--json"]
     check = mrpbench("check-vda5050", "vehicle", broker.url, *words)
     said = check.communicate(timeout=60)[0]
     findings = json.loads(said)

@@ -183,17 +183,12 @@ class _Site:
         """Let the robots of the site begin at the locations where they stand."""
         kinds = _section(self._root, "robots")
         names = _section(self._root, "model_descriptions")
-        for key, kind in kinds.items():
-            self._notes.add(f"robot {_name(names.get(key, kind), key)!r}: {_robot(kind)}; the study's `fleet` decides")
-        for key, robot, kind, (x, y), _ in self._instances():
+        for key, node in kinds.items():
+            self._notes.add(f"robot {_name(names.get(key, node), key)!r}: {_robot(node)}; the study's `fleet` decides")
+        for level, robot, kind, place, _ in self._instances():
             if kind not in kinds:
                 continue
-            places = ((anchor, *self._index.get(anchor, ("", -1))) for anchor in found)
-            near = [
-                (math.dist((x, y), self._places[level][index]), anchor)
-                for anchor, level, index in places
-                if level == key and self._near(level, index, x, y)
-            ]
+            near = [(away, anchor) for anchor in found if (away := self._distance(anchor, level, place)) <= NEAR]
             if near:
                 parameters = found[min(near)[1]][1]
                 parameters["spawn_robot_name"] = [1, _text(robot.fields().get("name"))]
@@ -201,8 +196,10 @@ class _Site:
             else:
                 self._notes.add("robot that stands at no location begins where the scenario says")
 
-    def _near(self, level: str, index: int, x: float, y: float) -> bool:
-        return math.dist((x, y), self._places[level][index]) <= NEAR
+    def _distance(self, anchor: str, level: str, place: tuple[float, float]) -> float:
+        """Metres from an anchor to a place on a level; inf if it is on another one."""
+        at, index = self._index.get(anchor, ("", -1))
+        return math.dist(place, self._places[at][index]) if at == level else math.inf
 
     def _models(self, level: str) -> Iterator[dict[str, Any]]:
         """The furniture of a level."""
