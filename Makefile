@@ -8,7 +8,7 @@ JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/pyproject.toml plugins/*/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: slurm results-site help install explore pages anchors rotations demo test lint types layers cpp python format lock speed policy pogema clean optima ros soak sanitize worlds fuzz mutants wheels docs links
+.PHONY: slurm results-site help install explore pages anchors rotations demo test lint types layers cpp python format lock speed policy pogema clean optima live ros soak sanitize worlds fuzz mutants wheels docs links
 
 help: ## list the targets
 	@grep -hE '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -146,6 +146,12 @@ ros: ## test live ROS 2, with rclpy from PyPI in its own environment (Python 3.1
 	$(ROS)/python -m pip install --quiet ros-kilted-rclpy ros-rmw-fastrtps-cpp ros-nav-msgs ros-sensor-msgs ros-diagnostic-msgs ros-visualization-msgs
 	$(ROS)/python -m pip install --quiet pytest pytest-timeout -e . ./native -e plugins -e plugins/exporters/rosbag2 -e plugins/bridges/ros2
 	$(ROS)/python -m pytest -p no:cacheprovider plugins/bridges/ros2
+
+LIVE := build/live/bin
+live: ## drive vehicles of VDA 5050 by vda5050-sdk, 50 orders each, and send 100,000 broken messages, in an environment of its own; needs mosquitto
+	test -x $(LIVE)/python || $(PYTHON) -m venv build/live
+	$(LIVE)/python -m pip install --quiet pytest pytest-timeout vda5050-sdk aiomqtt -e . ./native -e plugins -e 'plugins/live[vda5050]'
+	MRPBENCH_LIVE_ORDERS=50 MRPBENCH_LIVE_MESSAGES=100000 $(LIVE)/python -m pytest -p no:cacheprovider plugins/live
 
 policy: install ## train the policy that mrpbench-policies ships (25 minutes); ARGS="--instances 50 --rounds 0 --out small.onnx" for less
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python scripts/train_policy.py $(ARGS)

@@ -31,6 +31,7 @@ EXTRAS = {
     "search": "mrpbench-search",
     "statistics": "mrpbench-core[statistics]",
     "usd": "mrpbench-world[usd]",
+    "vda5050": "mrpbench-live[vda5050]",
 }
 
 

@@ -37,6 +37,12 @@ class DispatcherSession(ABC):
         """
         return None
 
+    def close(self) -> None:  # noqa: B027 - most have nothing to leave
+        """Leave whatever is outside of this process: the execution is over. Called once, also after an error.
+
+        Only with physics.
+        """
+
     def copied(self) -> "DispatcherSession | None":
         """Return a session that goes on from here as this one does, neither of them disturbing the other; None = it
         cannot.

@@ -44,6 +44,8 @@ class Planner(Component):
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE})
     reads_remaining: ClassVar[bool] = False
     """True if the planner uses `Problem.remaining`, which is otherwise not given."""
+    chooses_goals: ClassVar[bool] = False
+    """True if the planner decides during an execution where robots go. The problems that it gets have no goals then."""
     needs_homes: ClassVar[bool] = False
     """True if robots without one of the tasks that come over time must go home (`replanning.parking: home`)."""
 

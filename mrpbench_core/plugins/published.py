@@ -61,6 +61,13 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.simulators": ("league",),
         "mrpbench.task_sources": ("lorr",),
     },
+    "mrpbench-live": {
+        "mrpbench.commands": ("check-vda5050", "serve"),
+        "mrpbench.dispatchers": ("live",),
+        "mrpbench.interfaces": ("vda5050",),
+        "mrpbench.planners": ("live",),
+        "mrpbench.task_sources": ("live",),
+    },
     "mrpbench-policies": {
         "mrpbench.metrics": ("pogema",),
         "mrpbench.planners": ("policy",),
@@ -85,6 +92,7 @@ EXTRAS = {
     "mrpbench-bridges-ros2": "ros2",
     "mrpbench-executors-dask": "dask",
     "mrpbench-exporters-rosbag2": "rosbag2",
+    "mrpbench-live": "vda5050",
     "mrpbench-policies": "policies",
     "mrpbench-search": "search",
     "mrpbench-simulators-mujoco": "mujoco",

@@ -1,5 +1,7 @@
 """Executes a plan, and tasks that come over time, in a simulator of robots that drive."""
 
+from contextlib import closing
+
 import numpy as np
 
 from mrpbench_core.api.contract import BrokenContractError
@@ -73,7 +75,8 @@ class PhysicalExecution(PlannedExecution):
                     progress=ExecutionProgress(inputs.progress, config.limits.execution),
                 )
             )
-            result = self._finished(loop, recorder)
+            with closing(loop):
+                result = self._finished(loop, recorder)
         if result is None:
             raise BrokenContractError("the simulator hid an exception", "simulator")
         if tasks is not None and tasks.assignment_s:

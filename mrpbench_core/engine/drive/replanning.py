@@ -42,7 +42,16 @@ def replanner_of(inputs: RunInputs, context: RunContext, router: Router) -> Repl
 
     assert context.result.plan is not None
     planner, problem, plan = config.planner, context.problem, context.result.plan
-    return Replanner(config.replanning, ask, router, problem, plan, planner.supports, planner.reads_remaining)
+    return Replanner(
+        config.replanning,
+        ask,
+        router,
+        problem,
+        plan,
+        planner.supports,
+        reads_remaining=planner.reads_remaining,
+        chooses_goals=planner.chooses_goals,
+    )
 
 
 def call_timing(seconds: list[float], limit: float) -> dict[str, float]:

@@ -102,6 +102,10 @@ class ExecutionLoop(ControlLoop):
             mode=np.full(robots, Mode.WAITING, "u1"),
         )
 
+    def close(self) -> None:
+        """End what takes part in the execution besides the simulation."""
+        self._dispatcher.close()
+
     def _sense(self) -> None:
         inputs, state = self._inputs, self._state
         odometry = inputs.noise.odometry(state)
@@ -139,7 +143,7 @@ class ExecutionLoop(ControlLoop):
     def _replan(self, view: FleetView) -> None:
         """Ask for a new plan if one is needed."""
         now, replanner, tasks, reactions = self._now, self._inputs.replanner, self._inputs.tasks, self._reactions
-        wish, released = reactions.reason(now), self._orders.released
+        wish, released = reactions.reason(now) or self._orders.replan or None, self._orders.released
         given_up = reactions.update()
         if tasks is not None:
             head = heads(replanner.problem, replanner.moves, released)
@@ -160,6 +164,7 @@ class ExecutionLoop(ControlLoop):
         if returned is not self._returned:
             self._returned = returned
             self._orders = self._checks.orders(returned)
+            self._inputs.recorder.events(returned.events)
 
     def _adopt(self, new: Revision) -> bool:
         """Put a new plan in force; tell whether there is one and the dispatcher accepts it."""

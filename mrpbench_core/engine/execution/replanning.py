@@ -60,6 +60,7 @@ class Replanner:
         plan: the first plan.
         supports: features that the planner supports; with `since`, plans leave out what robots drove long ago.
         reads_remaining: the planner uses what remains of the plan in force.
+        chooses_goals: the planner decides where robots go.
     """
 
     def __init__(
@@ -71,10 +72,11 @@ class Replanner:
         plan: Plan,
         supports: frozenset[Feature] = frozenset(),
         reads_remaining: bool = False,
+        chooses_goals: bool = False,
     ) -> None:
         self.supports, self.yaw = supports, router.final_yaw
         self._cuts = Feature.SINCE in supports and router.plan_filter == "none"  # which may shift waypoints anywhere
-        self._reads_remaining = reads_remaining
+        self._reads_remaining, self._chooses_goals = reads_remaining, chooses_goals
         self._settings = settings
         self._ask = ask
         self._router = router
@@ -147,7 +149,7 @@ class Replanner:
         if self._settings.window is not None:
             horizon = max(ends_of(problem)) + math.ceil(self._settings.window / tick - 1e-9)
             problem = attrs.evolve(problem, horizon=horizon)
-        problem = attrs.evolve(problem, goals=to.goals)
+        problem = attrs.evolve(problem, goals=((),) * len(problem) if self._chooses_goals else to.goals)
         problem = attrs.evolve(problem, features=features_of(problem) | (self.problem.features & {Feature.FOOTPRINTS}))
         result, fault, late = self._ask(attrs.evolve(problem, roadmap=roadmap))
         due += late

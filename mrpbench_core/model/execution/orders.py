@@ -4,6 +4,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Byte, Float, Int, Int16, Int32, array
+from mrpbench_core.model.execution.motion import Event
 
 
 @attrs.frozen(kw_only=True)
@@ -41,6 +42,11 @@ class Orders:
     speed: Float = array("f8", factory=lambda: np.zeros(0))
     """f8[n] m/s: upper limit of each robot now, inf = none; empty: there are no limits in the whole execution. No rule
     depends on it: a robot that ignores it only drives on to where it has to wait."""
+    replan: str = ""
+    """Why a new plan is needed now, such as `robot 3 has another path`; empty: the dispatcher needs none. Not without
+    physics."""
+    events: tuple[Event, ...] = ()
+    """What the dispatcher adds to the recording, with the time of this control period. Not without physics."""
 
 
 @attrs.frozen(kw_only=True)

@@ -1,4 +1,4 @@
-"""Worlds drawn in the RMF traffic editor (`building.yaml`)."""
+"""Worlds drawn in the editors of Open-RMF: `building.yaml` and `.site.json`."""
 
 from typing import Any, Literal
 
@@ -19,6 +19,7 @@ from mrpbench_worlds_standard.building.lifts import read_lifts
 from mrpbench_worlds_standard.building.models import read_models
 from mrpbench_worlds_standard.building.node import Node
 from mrpbench_worlds_standard.building.notes import Notes
+from mrpbench_worlds_standard.building.site import is_site, read_site
 from mrpbench_worlds_standard.building.unsupported import note_unsupported, refuse_navigation_graph
 from mrpbench_worlds_standard.building.walls import read_walls
 
@@ -37,13 +38,13 @@ def doors_option() -> Any:
 
 @attrs.frozen(kw_only=True)
 class Rmf(WorldSource):
-    """A `building.yaml` of the RMF traffic editor, all its levels in the frame of the reference level.
+    """A `building.yaml` of the RMF traffic editor, or a `.site.json` of the site editor, its levels in one frame.
 
     The reference level (`reference_level_name`, else the first) becomes level 0. Models become obstacles by a table of
     estimated footprints, which `footprints` extends. `World.notes` lists what is not supported.
     """
 
-    file: Path = option(help="The building.yaml file.")
+    file: Path = option(help="The building.yaml or .site.json file.")
     level: str | None = option(None, help="Name of the one level to load, in its own frame; by default all.")
     footprints: Path | None = option(
         None, help="Footprints of models as `name: {size: [x, y]}` or `{radius: r}`, on top of the estimated ones."
@@ -59,11 +60,11 @@ class Rmf(WorldSource):
 
     def load(self) -> World:
         """Read walls, doors, furniture, lifts and lanes."""
-        document = yaml.load(self.file)
+        notes = Notes()
+        document = read_site(self.file, notes) if is_site(self.file) else yaml.load(self.file)
         building = Node(document, document.data)
         nodes = self._levels(building)
         refuse_navigation_graph(nodes)
-        notes = Notes()
         frames = read_frames(building, nodes, notes)
         drawings = {name: _drawing(node, frames[name], notes) for name, node in nodes.items()}
         if self.doors == "open":

@@ -1,0 +1,8 @@
+"""The commands of this distribution."""
+
+from mrpbench_core.cli.command import Command
+
+SERVE = Command("run a study against a clock, and let an outside fleet control drive", "mrpbench_live.commands.serve")
+CHECK_VDA5050 = Command(
+    "list the rules of VDA 5050 that a vehicle or a fleet control keeps", "mrpbench_live.commands.check_vda5050"
+)

@@ -1,0 +1,32 @@
+"""Where a vehicle is and how fast, and the errors that it reports."""
+
+from collections.abc import Mapping
+
+import attrs
+
+
+@attrs.frozen(kw_only=True)
+class Here:
+    """A vehicle at one time."""
+
+    now: float
+    """simulated seconds."""
+    pose: tuple[float, float, float]
+    """x, y (metres), yaw (radians)."""
+    level: int
+    driving: bool
+    gave_up: bool
+    """It cannot drive any more."""
+    velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+@attrs.frozen(kw_only=True)
+class Error:
+    """An error that a vehicle reports."""
+
+    type: str
+    level: str
+    description: str
+    references: Mapping[str, str]
+    until: str
+    """What ends it."""

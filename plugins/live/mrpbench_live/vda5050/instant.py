@@ -1,0 +1,124 @@
+"""Instant actions: what a vehicle does at once, whatever its order says (6.2.1)."""
+
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from mrpbench_live.vda5050.actions import Action
+from mrpbench_live.vda5050.names import Names
+from mrpbench_live.vda5050.orders import RefusedError
+from mrpbench_live.vda5050.scopes import SCOPES
+from mrpbench_live.vda5050.track import Track, distance
+from mrpbench_live.vda5050.vehicle import UNTIL_NEXT_INSTANT_ACTION, UNTIL_NEXT_ORDER, Vehicle
+
+AGREES = 1.0
+"""Metres from its place at which a vehicle takes a position for its own."""
+
+
+class InstantActions:
+    """Performs the instant actions of one vehicle.
+
+    Args:
+        vehicle: that performs them.
+        track: its path.
+        names: of the version that it speaks.
+        note: called with the kind of an event and one line about it.
+    """
+
+    def __init__(self, vehicle: Vehicle, track: Track, names: Names, note: Callable[[str, str], None]) -> None:
+        self._vehicle, self._track, self._names, self._note = vehicle, track, names, note
+        self._perform: Mapping[str, Callable[[Action], None]] = {
+            "cancelOrder": self._cancel_order,
+            "startPause": self._start_pause,
+            "stopPause": self._stop_pause,
+            "stateRequest": self._end,
+            "factsheetRequest": self._request_factsheet,
+            "clearInstantActions": self._clear,
+            "trigger": self._trigger,
+            "initializePosition": self._initialize_position,
+            "startCharging": self._start_charging,
+            "stopCharging": self._stop_charging,
+        }
+
+    def take(self, message: Any, fault: str | None) -> None:
+        """Perform instant actions, or refuse them; `fault`: what is wrong with the message by its schema."""
+        vehicle = self._vehicle
+        if fault is not None:
+            refusal = RefusedError("INVALID_INSTANT_ACTION", fault, {"topic": "instantActions"})
+            vehicle.refuse(refusal, UNTIL_NEXT_INSTANT_ACTION)
+            return
+        for action in map(Action.of, message["actions"]):
+            if action.id in vehicle.instant or action.id in vehicle.actions:  # the fleet control repeats itself
+                continue
+            vehicle.instant[action.id], vehicle.changed = action, True
+            kind = "initializePosition" if action.type == self._names.initialize_position else action.type
+            if "INSTANT" not in SCOPES.get(kind, ()):
+                action.status = "FAILED"
+                refers = {"topic": "instantActions", "actionId": action.id, "actionType": action.type}
+                what = f"the instant action {action.type!r} does not exist"
+                vehicle.refuse(RefusedError("INVALID_INSTANT_ACTION", what, refers), UNTIL_NEXT_INSTANT_ACTION)
+                continue
+            vehicle.errors = [error for error in vehicle.errors if error.until != UNTIL_NEXT_INSTANT_ACTION]
+            action.status, action.begun = "RUNNING", True
+            self._note("instant_action", f"{action.type} {action.id}")
+            self._perform[kind](action)
+
+    def _cancel_order(self, action: Action) -> None:
+        vehicle, wanted = self._vehicle, action.parameters.get("orderId")
+        active = str(vehicle.order["orderId"]) if vehicle.order is not None and vehicle.cancellable else None
+        if active is not None and wanted in (None, active):
+            vehicle.cancel(action)
+            return
+        action.status = "FAILED"
+        what = "there is no active order" if active is None else f"the order {wanted!r} is not active"
+        vehicle.refuse(RefusedError("NO_ORDER_TO_CANCEL", what, {"actionId": action.id}), UNTIL_NEXT_ORDER)
+
+    def _start_pause(self, action: Action) -> None:
+        self._vehicle.pause, self._vehicle.paused = action, True
+
+    def _stop_pause(self, action: Action) -> None:
+        if self._vehicle.pause is not None and not self._vehicle.pause.ended:
+            self._vehicle.pause.status = "FAILED"
+        self._vehicle.pause, self._vehicle.paused = None, False
+        self._end(action)
+
+    def _end(self, action: Action) -> None:
+        action.status = "FINISHED"
+
+    def _request_factsheet(self, action: Action) -> None:
+        self._vehicle.wants_factsheet = True
+        self._end(action)
+
+    def _clear(self, action: Action) -> None:
+        known = self._vehicle.instant.items()
+        self._vehicle.instant = {key: other for key, other in known if not other.ended}
+        self._end(action)
+
+    def _trigger(self, action: Action) -> None:
+        waiting = [other for other in self._vehicle.queue.running() if other.type == "waitForTrigger"]
+        action.status = "FINISHED" if waiting else "FAILED"
+        for other in waiting:
+            other.status = "FINISHED"
+
+    def _initialize_position(self, action: Action) -> None:
+        """Agree, or refuse: the vehicle knows where it is."""
+        vehicle, given = self._vehicle, action.parameters
+        x, y, last = given.get("x"), given.get("y"), given.get("lastNodeId")
+        agrees = isinstance(x, int | float) and isinstance(y, int | float)
+        agrees = agrees and given.get("mapId") in (None, self._track.maps[vehicle.here.level])
+        if agrees and distance(vehicle.here.pose, (float(str(x)), float(str(y)))) <= AGREES:
+            if vehicle.idle and isinstance(last, str):
+                vehicle.last_node = last
+            self._end(action)
+        else:
+            action.status, action.result = "FAILED", "the vehicle is elsewhere"
+
+    def _start_charging(self, action: Action) -> None:
+        if self._vehicle.here.driving:
+            action.status, action.result = "FAILED", "the vehicle drives"
+        else:
+            self._vehicle.charging = True
+            self._end(action)
+
+    def _stop_charging(self, action: Action) -> None:
+        self._vehicle.charging = False
+        self._end(action)

@@ -1,0 +1,209 @@
+"""The interface `vda5050`: every robot is a vehicle of its own for an outside fleet control."""
+
+import json
+import time
+from collections.abc import Sequence
+from typing import Any, Literal
+
+import attrs
+import numpy as np
+from attrs.validators import ge, gt
+
+from mrpbench_core.api import Event, option
+from mrpbench_core.files.printing import printable
+from mrpbench_live.fleet.interface import Connection, Interface
+from mrpbench_live.fleet.paths import FleetPaths, FleetState
+from mrpbench_live.fleet.site import Site
+from mrpbench_live.vda5050.battery import Battery
+from mrpbench_live.vda5050.condition import Here
+from mrpbench_live.vda5050.instant import InstantActions
+from mrpbench_live.vda5050.messages import Headers, factsheet_of, position_of, read, state_of, velocity_of
+from mrpbench_live.vda5050.names import VERSIONS, Names
+from mrpbench_live.vda5050.schemas import validator
+from mrpbench_live.vda5050.track import Track
+from mrpbench_live.vda5050.vehicle import Vehicle
+from mrpbench_live.vda5050.wire import Broker, Client, Wire
+
+LEAST_INTERVAL = 0.1
+"""Seconds between two states of a vehicle at least."""
+CONNECTING_S = 30.0
+"""Seconds within which all vehicles have to be connected."""
+LONGEST = 300
+"""Characters of what the recording says of a message, at most."""
+
+
+@attrs.frozen(kw_only=True)
+class Vda5050(Interface):
+    """Vehicles of VDA 5050 on a broker of MQTT."""
+
+    url: str = option(
+        "mqtt://127.0.0.1:1883", help="the broker; a user before the host, its password in the environment"
+    )
+    version: Literal["2.1", "3.0"] = option("3.0", help="of VDA 5050")
+    topics: str = option("", help="what topics begin with; empty: `uagv/v2` in 2.1, `vda5050/v3` in 3.0")
+    manufacturer: str = option("mrpbench", help="second last part of topics but one; the serial number is robot_0, …")
+    state_interval: float = option(1.0, help="most time between two states of a vehicle", unit="s", validator=gt(0))
+    visualization_interval: float = option(
+        0.0, help="time between two messages on `visualization`; 0: there are none", unit="s", validator=ge(0)
+    )
+    action_time: float = option(5.0, help="simulated time that actions like `pick` take", unit="s", validator=ge(0))
+    battery: Battery = option(Battery(), help="model of the batteries")
+
+    def connect(self, site: Site, paths: FleetPaths) -> "VdaFleet":
+        """Connect all vehicles.
+
+        Raises:
+            InputError: there is no broker, or a library is missing.
+        """
+        return VdaFleet(self, site, paths)
+
+
+class VdaFleet(Connection):
+    """The vehicles of one run."""
+
+    def __init__(self, recipe: Vda5050, site: Site, paths: FleetPaths) -> None:
+        self._wire = Wire(Broker.of(recipe.url))
+        self._paths, self._events, self._now = paths, [], 0.0
+        self._members = [_Member(self, recipe, site, paths, robot) for robot in range(len(site.fleet))]
+        self._facts = np.full((3, len(site.fleet)), -1)
+        """i8[3,n] what the vehicles knew last: moves that they have made, whether they drive, whether they gave up."""
+        for member in self._members:
+            self._wire.add(member.client)
+            self._wire.serve(0.0)
+        self._wire.meet(CONNECTING_S)
+
+    _events: list[Event]
+
+    def note(self, robot: int, kind: str, detail: str) -> None:
+        """Add an event to the recording."""
+        self._events.append(Event(stamp=self._now, kind=kind, robot=robot, detail=printable(detail)[:LONGEST]))
+
+    def exchange(self, state: FleetState, due: float) -> Sequence[Event]:
+        """Advance all vehicles, send what they have to say, and take in what waits or comes until `due`."""
+        self._now, now = state.now, time.monotonic()
+        facts = np.stack([self._paths.passed, state.driving, state.gave_up])
+        other = (facts != self._facts).any(axis=0)
+        self._facts = facts
+        waiting = np.array([member.restless or now >= member.due for member in self._members])
+        for robot in np.flatnonzero(other | waiting).tolist():
+            x, y, yaw = state.pose[robot].tolist()
+            vx, vy, omega = state.velocity[robot].tolist()
+            here = Here(
+                now=state.now,
+                pose=(x, y, yaw),
+                level=int(state.level[robot]),
+                driving=bool(state.driving[robot]),
+                gave_up=bool(state.gave_up[robot]),
+                velocity=(vx, vy, omega),
+            )
+            self._members[robot].advance(here, now)
+        self._wire.serve(due)
+        events, self._events = self._events, []
+        return events
+
+    def close(self) -> None:
+        """Say that all vehicles are offline."""
+        for member in self._members:
+            member.leave()
+        self._wire.close()
+
+
+class _Member:
+    """One vehicle with its connection."""
+
+    def __init__(self, fleet: VdaFleet, recipe: Vda5050, site: Site, paths: FleetPaths, robot: int) -> None:
+        self._names: Names = VERSIONS[recipe.version]
+        self._maps, self._robot, self._headings = site.levels, site.fleet.robots[robot], site.has_headings
+        serial = site.robots[robot]
+        self._topic = f"{recipe.topics or self._names.topics}/{recipe.manufacturer}/{serial}/"
+        self._headers = Headers(self._names.version, recipe.manufacturer, serial)
+        self._intervals = LEAST_INTERVAL, recipe.state_interval, recipe.visualization_interval
+        self._order_fault = validator(recipe.version, "order")
+        self._actions_fault = validator(recipe.version, "instantActions")
+
+        def note(kind: str, detail: str) -> None:
+            fleet.note(robot, kind, detail)
+
+        self._note = note
+        track = Track(site, paths, robot)
+        self._vehicle = Vehicle(track, self._names, recipe.battery, recipe.action_time, note)
+        self._vehicle.last_node = track.name(track.end)
+        self._instant = InstantActions(self._vehicle, track, self._names, note)
+        now = time.monotonic()
+        self._state_at = now + recipe.state_interval * (robot % 97) / 97  # not all at once
+        self._visualization_at = now if recipe.visualization_interval else float("inf")
+        self._not_before = 0.0
+        will = {**self._headers.next("connection"), "connectionState": self._names.connection_broken}
+        self.client = Client(
+            fleet._wire,
+            f"{recipe.manufacturer}-{serial}",
+            (f"{self._topic}connection", json.dumps(will).encode()),
+            (f"{self._topic}order", f"{self._topic}instantActions"),
+            self._online,
+            self._take,
+        )
+
+    @property
+    def due(self) -> float:
+        """The time of `time.monotonic` at which a message is due."""
+        return min(self._state_at, self._visualization_at)
+
+    @property
+    def restless(self) -> bool:
+        """True if something may happen although the vehicle is where it was; see `Vehicle.restless`."""
+        return self._vehicle.restless
+
+    def advance(self, here: Here, now: float) -> None:
+        """Go on, and send what is due at `now`."""
+        vehicle = self._vehicle
+        vehicle.advance(here)
+        if vehicle.wants_factsheet:
+            vehicle.wants_factsheet = False
+            self._send_factsheet()
+        if (vehicle.changed and now >= self._not_before) or now >= self._state_at:
+            self._send_state(now)
+        if now >= self._visualization_at:
+            self._visualization_at = now + self._intervals[2]
+            self._send("visualization", self._visualization())
+
+    def leave(self) -> None:
+        """Say that the vehicle is offline."""
+        self._send("connection", {"connectionState": "OFFLINE"}, qos=1, retain=True)
+
+    def _online(self) -> None:
+        self._send("connection", {"connectionState": "ONLINE"}, qos=1, retain=True)
+        self._send_factsheet()
+        self._vehicle.changed = True
+        self._note("connection", "ONLINE")
+
+    def _send_state(self, now: float) -> None:
+        if self._send("state", state_of(self._vehicle, self._maps, self._names)):
+            self._vehicle.changed = False
+        self._state_at, self._not_before = now + self._intervals[1], now + LEAST_INTERVAL
+
+    def _send_factsheet(self) -> None:
+        self._send("factsheet", factsheet_of(self._robot, self._names, self._intervals, self._headings), retain=True)
+
+    def _visualization(self) -> dict[str, Any]:
+        found: dict[str, Any] = {
+            self._names.position: position_of(self._vehicle, self._maps, self._names),
+            "velocity": velocity_of(self._vehicle),
+        }
+        if self._names.has_instant_states:
+            found["referenceStateHeaderId"] = self._headers.last("state")
+        return found
+
+    def _send(self, topic: str, body: dict[str, Any], qos: int = 0, retain: bool = False) -> bool:
+        if not self.client.connected:
+            return False
+        message = {**self._headers.next(topic), **body}
+        return self.client.publish(self._topic + topic, json.dumps(message).encode(), qos, retain)
+
+    def _take(self, topic: str, payload: bytes) -> None:
+        """Take in a message of the fleet control, whatever it is."""
+        message, fault = read(payload)
+        kind = topic.rpartition("/")[2]
+        if kind == "order":
+            self._vehicle.take_order(message, fault or self._order_fault(message))
+        elif kind == "instantActions":
+            self._instant.take(message, fault or self._actions_fault(message))
