@@ -177,3 +177,17 @@ def test_the_end_of_a_damaged_recording_of_ours_is_open_before_arrivals_and_abor
     found = observe_recording(Observed(tracks=tracks, channels=channels, complete=complete), context)
     assert found.open_ends == (("the end of the recording is missing or damaged",) if is_open else ())
     assert found.channels["truth"][:, 0, 0].tolist() == [0, 1]
+
+
+@pytest.mark.parametrize(("heading", "end"), [(np.pi / 2, [0, 4, np.pi / 2 + 0.3]), (NAN, [3, 3, 0.5])])
+def test_poses_in_a_robots_own_frame_begin_at_its_start(heading, end):
+    """It moves 2 m ahead and 1 m to its left; without a heading at the start its frame is parallel to the map."""
+    own = attrs.evolve(track([0, 1], [10, 12]), pose=np.array([[10, 5, 0.2], [12, 6, 0.5]]), placed=False)
+    if not np.isnan(heading):
+        turned = np.array([[np.cos(0.2), -np.sin(0.2)], [np.sin(0.2), np.cos(0.2)]])
+        own = attrs.evolve(own, pose=np.column_stack([[[0, 0], [2, 1]] @ turned.T + [10, 5], [0.2, 0.5]]))
+    found = seen(attrs.evolve(scenario(9.0), start=[[1, 2, heading]]), [own])
+    assert found.channels["truth"][0, 0, :2].tolist() == pytest.approx([1, 2])
+    assert found.channels["truth"][-1, 0].tolist() == pytest.approx(end)
+    assert "its first pose was put at the start" in found.notes[0]
+    assert len(found.notes) == 1 + np.isnan(heading)
