@@ -17,6 +17,7 @@ from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.report.reading.axes import NO_AXES, find_axes, name_axes
 from mrpbench_search.asking.arguments import add_search, searching, study_of
 from mrpbench_search.asking.requests import Requests, SearchEnded, read_whole_study, seeds_of
+from mrpbench_search.asking.variants import read_variants
 from mrpbench_search.saturation.rates import TOLERANCE, Growth, growth, next_rate, saturation
 
 COLUMN = ".open_growth"
@@ -98,19 +99,20 @@ def run(arguments: argparse.Namespace) -> int:
     with slots_of_this_process():
         study = read_whole_study(file, overrides)
         option = _option(study)
-        searches = _searches(study, option)
+        points = _by_combination(study, option)
+        searches = _searches(study, option, points)
         out = Path(arguments.out or f"results/{study.name}-saturate")
         with searching(arguments, out, overrides) as requests:
-            end = _search(requests, file, overrides, option, searches, arguments.resolution)
+            end = _search(requests, study, option, points, searches, arguments.resolution)
     _print(list(searches.values()), UNITS[option], out, end, arguments.json)
     return int(any(None in search.interval for search in searches.values()))
 
 
 def _search(
     requests: Requests,
-    file: str,
-    overrides: Sequence[str],
+    study: StudyRuns,
     option: str,
+    points: Mapping[str, Sequence[StudyRun]],
     searches: Mapping[str, Search],
     resolution: float,
 ) -> str | None:
@@ -119,7 +121,7 @@ def _search(
         for rate, keys in wanted.items():
             print(f"trying {rate:.4g} {UNITS[option]}: {'; '.join(searches[key].label for key in keys)}")
         try:
-            _try(requests, file, overrides, option, searches, wanted)
+            _try(requests, study, option, points, searches, wanted)
         except SearchEnded as end:
             return str(end)
         for rate, keys in wanted.items():
@@ -152,16 +154,21 @@ def _key(point: StudyRun, option: str) -> str:
     return json.dumps(others | {"tasks": block})
 
 
-def _searches(study: StudyRuns, option: str) -> dict[str, Search]:
-    """One search for each combination of the matrix."""
+def _by_combination(study: StudyRuns, option: str) -> dict[str, list[StudyRun]]:
+    """The runs of each combination of the matrix."""
     points: dict[str, list[StudyRun]] = defaultdict(list)
     for point in study.runs:
         points[_key(point, option)].append(point)
-    for repeats in points.values():
-        if len(seeds_of(repeats)) < 2:
+    for each in points.values():
+        if len(seeds_of(each)) < 2:
             raise InputError("seed: a rate is judged by two seeds or more", hint="e.g. seed=0..4")
+    return points
+
+
+def _searches(study: StudyRuns, option: str, points: Mapping[str, Sequence[StudyRun]]) -> dict[str, Search]:
+    """One search for each combination."""
     labels = map(name_axes, find_axes([json.loads(key) for key in points]))
-    starts = (float(repeats[0].canonical["tasks"][option]) for repeats in points.values())
+    starts = (float(each[0].canonical["tasks"][option]) for each in points.values())
     return {
         key: Search(label or study.name, start if option == "rate" else 1 / start)
         for key, label, start in zip(points, labels, starts, strict=True)
@@ -179,24 +186,23 @@ def _wanted(searches: Mapping[str, Search], resolution: float) -> dict[float, li
 
 def _try(
     requests: Requests,
-    file: str,
-    overrides: Sequence[str],
+    study: StudyRuns,
     option: str,
+    points: Mapping[str, Sequence[StudyRun]],
     searches: Mapping[str, Search],
     wanted: Mapping[float, Sequence[str]],
 ) -> None:
     """Do the runs of one step of all searches, and judge them."""
-    chosen: dict[tuple[float, str], list[StudyRun]] = defaultdict(list)
-    name = f"tasks.{option}"
-    others = [text for text in overrides if text.partition("=")[0].strip() != name]  # it gave the first rate
+    chosen: dict[tuple[float, str], tuple[StudyRun, ...]] = {}
     for rate, keys in wanted.items():
-        study = read_whole_study(file, [*others, f"{name}={rate if option == 'rate' else 1 / rate!r}"])
-        for point in study.runs:
-            if (key := _key(point, option)) in keys:
-                chosen[rate, key].append(point)
-    results = requests.results(study, [point for points in chosen.values() for point in points])
-    for (rate, key), points in chosen.items():
-        searches[key].judge(rate, [results[point.run_id] for point in points])
+        value = {f"tasks.{option}": rate if option == "rate" else 1 / rate}
+        for key in keys:
+            samples = [{name: point.canonical[name] for name in ("seed", "repeat")} for point in points[key]]
+            changes = [value | sample for sample in samples]
+            chosen[rate, key] = read_variants(study, points[key][0], changes, changes).runs
+    results = requests.results(study, [point for each in chosen.values() for point in each])
+    for (rate, key), each in chosen.items():
+        searches[key].judge(rate, [results[point.run_id] for point in each])
 
 
 def _print(searches: Sequence[Search], unit: str, out: Path, end: str | None, as_json: bool) -> None:
