@@ -63,16 +63,15 @@ class VdaFleet(Connection):
 
     def __init__(self, recipe: Vda5050, site: Site, paths: FleetPaths) -> None:
         self._wire = Wire(Broker.of(recipe.url))
-        self._paths, self._events, self._now = paths, [], 0.0
-        self._members = [_Member(self, recipe, site, paths, robot) for robot in range(len(site.fleet))]
+        self._paths, self._now = paths, 0.0
+        self._events: list[Event] = []
+        self._members = [_Member(self, self._wire, recipe, site, paths, robot) for robot in range(len(site.fleet))]
         self._facts = np.full((3, len(site.fleet)), -1)
         """i8[3,n] what the vehicles knew last: moves that they have made, whether they drive, whether they gave up."""
         for member in self._members:
             self._wire.add(member.client)
             self._wire.serve(0.0)
         self._wire.meet(CONNECTING_S)
-
-    _events: list[Event]
 
     def note(self, robot: int, kind: str, detail: str) -> None:
         """Add an event to the recording."""
@@ -111,7 +110,7 @@ class VdaFleet(Connection):
 class _Member:
     """One vehicle with its connection."""
 
-    def __init__(self, fleet: VdaFleet, recipe: Vda5050, site: Site, paths: FleetPaths, robot: int) -> None:
+    def __init__(self, fleet: VdaFleet, wire: Wire, recipe: Vda5050, site: Site, paths: FleetPaths, robot: int) -> None:
         self._names: Names = VERSIONS[recipe.version]
         self._maps, self._robot, self._headings = site.levels, site.fleet.robots[robot], site.has_headings
         serial = site.robots[robot]
@@ -135,7 +134,7 @@ class _Member:
         self._not_before = 0.0
         will = {**self._headers.next("connection"), "connectionState": self._names.connection_broken}
         self.client = Client(
-            fleet._wire,
+            wire,
             f"{recipe.manufacturer}-{serial}",
             (f"{self._topic}connection", json.dumps(will).encode()),
             (f"{self._topic}order", f"{self._topic}instantActions"),
