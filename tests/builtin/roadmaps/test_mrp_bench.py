@@ -78,14 +78,15 @@ SQUARE = [(0, 0), (6, 0), (6, 6), (0, 6)]
         (SQUARE, [(0, 3), (1, 2)], [".#####.", *["..###..", ".#####."] * 3]),
     ],
 )
-def test_roads_are_walked_and_widened_as_in_the_original(points, lanes, drawn):
+@pytest.mark.parametrize("cell", [1.0, 0.5])
+def test_roads_are_walked_and_widened_as_in_the_original(points, lanes, drawn, cell):
     """Worked out by hand from the rules in the module's docstring; the top row of a drawing is the highest."""
     world = World(
         name="drawn",
         levels=(Level(name="L1"),),
-        vertices=tuple(Vertex(name=str(number), x=x, y=y) for number, (x, y) in enumerate(points)),
+        vertices=tuple(Vertex(name=str(number), x=x * cell, y=y * cell) for number, (x, y) in enumerate(points)),
         lanes=tuple(Lane(start=start, end=end) for start, end in lanes),
     )
-    found = mrp_bench_raster(world, 1.0)
+    found = mrp_bench_raster(world, cell)
     assert ["".join(".#"[int(it)] for it in row) for row in found.blocked[::-1]] == drawn
     assert found.origin == (0, 0)
