@@ -66,6 +66,15 @@ def test_a_fault_at_one_junction_is_found_shrunk_and_repeated(hall):
     assert record["error"]["message"].partition(" (")[0] == failure["reason"].partition(" (")[0]
 
 
+@pytest.mark.parametrize("chosen", ["dispatcher=./faulty.py:ReleasesEarly", "controller=./faulty.py:BlindLeft"])
+def test_the_faults_that_make_hunts_searches_for_are_rare(hall, chosen):
+    words = ("planner=example", "simulator=kinematic", "control_rate=5", "limits.execution=90 s", "seed=0")
+    world = "world={plugin: movingai, file: hall.map, cell_size: 1}"
+    assert hall("run", "hall.yaml", *words, world, "scenario.robots=2", "metrics=[execution]", chosen)[0] == 0
+    (record,) = load("results/hall")
+    assert record["metrics"]["execution.robot_contacts"] == 0
+
+
 def test_a_budget_ends_a_hunt_that_finds_nothing(hall):
     code, output, _ = hall("hunt", "hall.yaml", "planner=example", "--budget", "8runs", "--for", "invalid")
     assert code == 0

@@ -53,9 +53,9 @@ class ReleasesEarlySession(AdgSession):
         super()._release()
         waits = [self.graph.blockers(robot) for robot in range(len(self.released))]
         for robot, others in enumerate(waits):
-            standing = self.released[robot] == self.seen[0][robot] < len(self.plan.paths[robot])
+            standing = self.released[robot] == self.counts[0][robot] < len(self.plan.paths[robot])
             rivals = [other for other in range(robot) if len(others) == 1 and waits[other] == others]
-            if standing and rivals and all(self.released[other] == self.seen[0][other] for other in rivals):
+            if standing and rivals and all(self.released[other] == self.counts[0][other] for other in rivals):
                 early = self.released.copy()
                 early[robot] += 1
                 self.released = frozen_array(early, "i4")
