@@ -1,5 +1,6 @@
 """Instant actions: what a vehicle does at once, whatever its order says (6.2.1)."""
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -102,10 +103,9 @@ class InstantActions:
     def _initialize_position(self, action: Action) -> None:
         """Agree, or refuse: the vehicle knows where it is."""
         vehicle, given = self._vehicle, action.parameters
-        x, y, last = given.get("x"), given.get("y"), given.get("lastNodeId")
-        agrees = isinstance(x, int | float) and isinstance(y, int | float)
-        agrees = agrees and given.get("mapId") in (None, self._track.maps[vehicle.here.level])
-        if agrees and distance(vehicle.here.pose, (float(str(x)), float(str(y)))) <= AGREES:
+        place, last = (_number(given.get("x")), _number(given.get("y"))), given.get("lastNodeId")
+        on_map = given.get("mapId") in (None, self._track.maps[vehicle.here.level])
+        if on_map and distance(vehicle.here.pose, place) <= AGREES:
             if vehicle.idle and isinstance(last, str):
                 vehicle.last_node = last
             self._end(action)
@@ -122,3 +122,8 @@ class InstantActions:
     def _stop_charging(self, action: Action) -> None:
         self._vehicle.charging = False
         self._end(action)
+
+
+def _number(value: Any) -> float:
+    """Return a parameter as a number, NaN if it is none."""
+    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else math.nan

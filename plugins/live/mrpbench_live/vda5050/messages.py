@@ -55,9 +55,17 @@ def read(payload: bytes) -> tuple[Any, str | None]:
     if len(payload) > LARGEST:
         return None, f"{len(payload)} bytes are more than {LARGEST}"
     try:
-        return json.loads(payload), None
+        return json.loads(payload, parse_int=_integer), None
     except (ValueError, RecursionError) as error:  # text in another encoding is a ValueError, too
         return None, f"the message is not JSON: {error}"
+
+
+def _integer(text: str) -> int:
+    """Return a number of 64 bits, with which all else can compute."""
+    number = int(text)
+    if abs(number) >= 2**63:
+        raise ValueError(f"{text[:20]}… is too large")
+    return number
 
 
 def timestamp() -> str:

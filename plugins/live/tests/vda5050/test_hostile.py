@@ -9,7 +9,7 @@ from mrpbench_live.vda5050.messages import read
 MESSAGES = int(os.environ.get("MRPBENCH_LIVE_MESSAGES", "2000"))
 """Messages that are sent; `make live` sends more."""
 VALUES = (
-    *(None, True, 0, -1, 2**64, 1e308, "", "x" * 1000, "\ud800", "\x00", [], {}, [[]], {"a": 1}),
+    *(None, True, 0, -1, 2**62, 2**64, 10**400, 1e308, "", "x" * 1000, "\ud800", "\x00", [], {}, [[]], {"a": 1}),
     *(float("nan"), float("inf"), -float("inf"), -0.0, 1e-300, "n1", "o1", "ground", "HARD"),
 )
 

@@ -30,7 +30,7 @@ class Master:
 
     async def drive(self, serial):
         client, key = self.client, f"mrpbench/{serial}"
-        await client.wait_for(key, lambda session: session.state is not None, timeout=20)
+        await client.wait_for(key, lambda session: session.state is not None, timeout=60)
         session = await client.session(key)
         while self.sent[serial] < self.orders:
             number = self.sent[serial]
