@@ -39,6 +39,7 @@ LAYOUTS: Mapping[str, Layout] = {
     "mover_arrivals": Layout("i", "time", (MOVERS,)),
     "contact_time": Layout("f", "contact_time"),
     "contact": Layout("i", "contact_time", (2,)),
+    "contact_force": Layout("f", "contact_time"),
     "scan_time": Layout("f", "scan_time"),
     "scan_robot": Layout("iu", "scan_time"),
     "scan_ranges": Layout("f", "scan_time", (ANY,)),
@@ -77,7 +78,7 @@ _LEAST_ROBOT = {
     **dict.fromkeys(("event_robot", "task_robot"), -1),
 }
 """The least index in channels that name robots; -1 = none."""
-OPTIONAL = frozenset({"route_segment", "route_edge", "route_leave", "errand_number"})
+OPTIONAL = frozenset({"route_segment", "route_edge", "route_leave", "errand_number", "contact_force"})
 """Channels that older recordings lack beside the others with their time axis."""
 LARGEST = 1e9
 """Bound of positions (metres), angles, speeds and times (seconds)."""

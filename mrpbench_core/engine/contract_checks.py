@@ -91,7 +91,7 @@ class ContractChecks:
             self._no_robot(kind, "a level that does not exist", (state.level < 0) | (state.level >= self._levels))
         self._check_facilities(state.facilities)
         if len(state.contacts):
-            self._check_contacts(state.contacts)
+            self._check_contacts(state.contacts, state.contact_force)
         if before is not None and not close:
             shift = state.pose - before.pose
             moved = np.hypot(shift[:, 0], shift[:, 1])
@@ -119,19 +119,13 @@ class ContractChecks:
             if not (isinstance(value, float | int) and abs(value) <= LARGEST):
                 _refuse(kind, f"for {name!r} the state {value!r:.40}")
 
-    def _check_contacts(self, contacts: Int32) -> None:
+    def _check_contacts(self, contacts: Int32, force: Float | None) -> None:
         one, other = contacts.T
-        if (
-            len(one)
-            and (
-                (one < 0)
-                | (one >= self._robots)
-                | (other < -1)
-                | (other >= self._robots + self._movers)
-                | (one == other)
-            ).any()
-        ):
+        wrong = (one < 0) | (one >= self._robots) | (other < -1) | (other >= self._robots + self._movers)
+        if (wrong | (one == other)).any():
             _refuse("the simulator", "contacts that name no robot, or a robot twice")
+        if force is not None and np.shape(force) != one.shape:
+            _refuse("the simulator", f"forces of shape {np.shape(force)} for {len(one)} contacts")
 
     def scans(self, batches: Sequence[ScanBatch], now: float) -> tuple[ScanBatch, ...]:
         """Check the scans that a simulator returns at `now`."""

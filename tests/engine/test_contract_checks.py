@@ -60,6 +60,7 @@ def test_what_keeps_the_contract_goes_through():
         ({"facilities": [0.0]}, "list instead of the state of doors and lifts"),
         ({"contacts": [[0, 2]]}, "contacts"),
         ({"contacts": [[1, 1]]}, "contacts"),
+        ({"contact_force": np.array([1.0])}, "forces"),
     ],
 )
 def test_wrong_states_are_refused_first_and_later(changes, message):

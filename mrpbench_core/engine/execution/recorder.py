@@ -33,6 +33,7 @@ SCANS = 4096
 IRREGULAR: dict[str, tuple[str, tuple[int, ...]]] = {
     "contact_time": ("f8", ()),
     "contact": ("i4", (2,)),
+    "contact_force": ("f8", ()),
     "route_time": ("f8", ()),
     "route_revision": ("i4", ()),
     "route_robot": ("i4", ()),
@@ -169,14 +170,16 @@ class Recorder:
         if not len(state.contacts) and not self._touching:
             return
         robots = len(state.pose)
-        touching = {(robot, other) for robot, other in state.contacts.tolist()}
-        for robot, other in sorted(touching):
+        forces = np.full(len(state.contacts), np.nan) if state.contact_force is None else state.contact_force
+        touching = dict(zip(map(tuple, state.contacts.tolist()), forces.tolist(), strict=True))
+        for (robot, other), force in sorted(touching.items()):
             self._rows["contact_time"].append(now)
             self._rows["contact"].append((robot, other))
+            self._rows["contact_force"].append(force)
             if (robot, other) not in self._touching:
                 detail = "wall" if other < 0 else f"robot_{other}" if other < robots else f"mover_{other - robots}"
                 self.events([Event(stamp=now, kind="contact", robot=robot, detail=detail)])
-        self._touching = touching
+        self._touching = set(touching)
 
     def scans(self, batches: Sequence[ScanBatch]) -> None:
         """Record scans, one row per robot; rows of different lidars are padded with NaN."""

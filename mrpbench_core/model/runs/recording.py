@@ -18,6 +18,7 @@
 | `mover_level` | i2[m] | index into `World.levels`, -1 = absent; with `mover` |
 | `mover_arrivals` | i4[m] | number of goals that each mover has reached, -1 = has none; with `mover` |
 | `contact_time`, `contact` | f8; i4[2] | per pair and period in contact: robot; robot, -1 = wall or n + j = mover j |
+| `contact_force` | f8 | of each contact: mean normal force over the period in newtons, NaN = unknown |
 | `scan_time`, `scan_robot`, `scan_ranges` | f8; i4; f4[beams] | only with `recording.scans` |
 | `trajectory_time`, `trajectory_robot` | f8; i4 | per trajectory; only with `recording.trajectories` |
 | `trajectory_chosen`, `trajectory_cost` | u1; f8 | 1 = the chosen one; lower is better, inf = refused, NaN = unknown |

@@ -1,6 +1,9 @@
 """Events and contacts as diagnostics."""
 
+import math
 from collections.abc import Iterator
+
+import numpy as np
 
 from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_exporters_rosbag2.messages import Topic, header, message, nanoseconds, serialize
@@ -24,8 +27,10 @@ def contacts(block: Chunk, names: tuple[str, ...], start: int) -> Iterator[tuple
     """One message per pair in contact and control period."""
     if "contact_time" in block:
         stamps = (nanoseconds(block["contact_time"]) + start).tolist()
-        for stamp, (robot, other) in zip(stamps, block["contact"].tolist(), strict=True):
-            yield stamp, _diagnostic(stamp, names[robot], "contact", {"other": _name(other, names, "wall")})
+        forces = block.get("contact_force", np.full(len(stamps), np.nan)).tolist()
+        for stamp, (robot, other), force in zip(stamps, block["contact"].tolist(), forces, strict=True):
+            values = {"other": _name(other, names, "wall")} | ({} if math.isnan(force) else {"force": repr(force)})
+            yield stamp, _diagnostic(stamp, names[robot], "contact", values)
 
 
 def _name(robot: int, names: tuple[str, ...], otherwise: str) -> str:

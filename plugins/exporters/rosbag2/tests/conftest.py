@@ -108,6 +108,7 @@ def recording() -> dict[str, np.ndarray]:
         "scan_ranges": ranges,
         "contact_time": np.array([1.0, 1.05, 2.025]),
         "contact": np.array([[0, 1], [0, 1], [1, -1]], "i4"),
+        "contact_force": np.array([2.5, 1 / 3, np.nan]),
         "event_time": np.array([0.0, 1.05, 3.999]),
         "event_kind": np.array(["replan", "recovery", "abort"]),
         "event_robot": np.array([-1, 0, 1], "i4"),

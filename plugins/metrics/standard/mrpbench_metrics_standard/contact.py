@@ -30,6 +30,12 @@ class Contact(Metric):
         Column("wall_time_s", "s", "lower", "sum over robots of the control periods in which they touch a wall"),
         Column("robots_touched", "", "lower", "robots that touched anything"),
         Column("first_s", "s", "higher", "time from the start until the first touch; null if there is none"),
+        Column(
+            "force_max_n",
+            "N",
+            "lower",
+            "largest normal force of a touch, its mean over a control period; null if the simulator does not know it",
+        ),
     )
     requires: ClassVar[frozenset[str]] = frozenset({"time", "contact_time", "contact"})
 
@@ -46,6 +52,7 @@ class Contact(Metric):
             return nulls(self)
         stamp, pair = run.channel("contact_time"), run.channel("contact")
         among_robots = pair[:, 1] < len(run.context.fleet)  # the metric `people` measures contacts with movers
+        force = run.channel("contact_force")[among_robots] if run.has("contact_force") else np.empty(0)
         stamp, pair = stamp[among_robots], pair[among_robots]
         wall = int((pair < 0).any(axis=1).sum())
         return {
@@ -53,4 +60,5 @@ class Contact(Metric):
             "wall_time_s": wall * run.context.period,
             "robots_touched": len(np.unique(pair[pair >= 0])),
             "first_s": float(stamp.min() - run.channel("time")[0]) if len(stamp) else None,
+            "force_max_n": float(np.nanmax(force)) if np.isfinite(force).any() else None,
         }

@@ -1,6 +1,7 @@
 """The metric `contact` on touches counted by hand."""
 
 import attrs
+import numpy as np
 import pytest
 from mrpbench_metrics_standard import Contact
 
@@ -22,6 +23,13 @@ def test_touches_are_counted_timed_and_dated(touching):
     assert values["first_s"] == 0.5
 
 
+def test_the_largest_force_is_that_of_contacts_whose_force_is_known(touching):
+    assert Contact().measure(touching)["force_max_n"] is None
+    forces = np.array([1.0, 7.5, np.nan, 2.0, 3.0, 4.0])
+    known = attrs.evolve(touching, channels={**touching.channels, "contact_force": lambda: forces})
+    assert Contact().measure(known)["force_max_n"] == 7.5
+
+
 def test_the_pause_between_contacts_is_an_option_of_execution():
     assert Contact(pause=1.0) == Contact()
     with pytest.raises(ValueError, match="`contact_pause`"):
@@ -35,6 +43,7 @@ def test_the_order_of_robots_does_not_matter(touching, permuted):
 def test_runs_without_contacts_have_no_first_contact(executed):
     values = Contact().measure(executed([2, 5, 8], STILL, [[0] * 3] * 4, [[(0, 0)]] * 4))
     assert values.pop("first_s") is None
+    assert values.pop("force_max_n") is None
     assert set(values.values()) == {0}
 
 

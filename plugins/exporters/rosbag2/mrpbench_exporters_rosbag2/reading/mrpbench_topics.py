@@ -97,6 +97,7 @@ class MrpbenchTopics:
             **self._movers(),
             "contact_time": times("contact_time"),
             "contact": np.array(pairs, "i4").reshape(-1, 2),
+            "contact_force": np.array(self._rows["contact_force"], float),
             "event_time": times("event_time"),
             "event_kind": np.array(self._rows["event_kind"], "U"),
             "event_robot": np.array([numbers.get(name, -1) for name in self._rows["event_robot"]], "i4"),
@@ -185,7 +186,9 @@ class MrpbenchTopics:
     def _contact(self, _logged: int, message: Any) -> None:
         (status,) = message.status
         self._rows["contact_time"].append(nanoseconds(message.header.stamp))
-        self._rows["contact"].append((status.name, status.values[0].value))
+        values = {entry.key: entry.value for entry in status.values}
+        self._rows["contact"].append((status.name, values["other"]))
+        self._rows["contact_force"].append(float(values.get("force", "nan")))
 
     def _event(self, _logged: int, message: Any) -> None:
         (status,) = message.status
