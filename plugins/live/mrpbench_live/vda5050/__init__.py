@@ -1,7 +1,7 @@
 """Vehicles that speak VDA 5050, the interface between fleet controls and vehicles of the VDA and the VDMA.
 
-From the bottom up: `names` has what differs between versions 2.1 and 3.0, `schemas` checks messages against the schemas
-that the VDA publishes, `orders` decides which orders are accepted, `actions` which actions run, `track` is the path of
+From the bottom up: `names` has what differs between versions 2.1 and 3.0, `schemas` checks the fields of
+messages, `orders` decides which orders are accepted, `actions` which actions run, `track` is the path of
 a vehicle, `vehicle` and `instant` are one vehicle, `messages` what it says, `wire` its connection over MQTT, and
 `interface` the fleet.
 

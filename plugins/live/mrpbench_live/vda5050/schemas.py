@@ -1,15 +1,17 @@
-"""Checks messages against the schemas that the VDA publishes."""
+"""Checks messages against the fields that VDA 5050 defines for them (`fields`), by JSON Schemas made of these."""
 
 import functools
-import json
 from collections.abc import Callable
 from importlib import resources
 from typing import Any
+
+import yaml
 
 from mrpbench_core.api import InputError
 
 TOPICS = "order", "instantActions", "state", "connection", "factsheet", "visualization"
 HINT = "pip install 'mrpbench-live[vda5050]'"
+_TYPES = ("any", "array", "boolean", "date-time", "integer", "number", "object", "string")
 
 
 @functools.cache
@@ -27,10 +29,7 @@ def validator(version: str, topic: str) -> Callable[[Any], str | None]:
         import fastjsonschema
     except ImportError as error:
         raise InputError(f"vda5050: fastjsonschema cannot be imported: {error}", hint=HINT) from error
-    text = resources.files("mrpbench_live.vda5050").joinpath("schemas", version, f"{topic}.json").read_text()
-    schema = json.loads(text)
-    del schema["$schema"]  # 2020-12, of which nothing is used that draft 7 lacks
-    check = fastjsonschema.compile(schema)
+    check = fastjsonschema.compile(schema(version, topic))
 
     def fault(message: Any) -> str | None:
         try:
@@ -40,3 +39,33 @@ def validator(version: str, topic: str) -> Callable[[Any], str | None]:
         return None
 
     return fault
+
+
+def schema(version: str, topic: str) -> dict[str, Any]:
+    """Return the JSON Schema (draft 7) of the messages of a topic."""
+    text = resources.files("mrpbench_live.vda5050").joinpath("fields", f"{version}.yaml").read_text()
+    entries = yaml.load(text, Loader=yaml.CSafeLoader)
+    parts = {name: _schema(fields) for name, fields in entries.items() if name not in TOPICS}
+    return _schema(entries[topic]) | {"definitions": parts}
+
+
+def _schema(fields: Any) -> dict[str, Any]:
+    if isinstance(fields, dict):
+        properties = {name.removesuffix("?"): _schema(inner) for name, inner in fields.items()}
+        required = [name for name in fields if not name.endswith("?")]
+        return {"type": "object", "properties": properties, "required": required}
+    if isinstance(fields, list):
+        return {"type": "array", "items": _schema(fields[0])}
+    if "|" in fields:
+        return {"type": "string", "enum": [text.strip() for text in fields.split("|") if text.strip()]}
+    if " or " in fields:
+        return {"type": fields.split(" or ")}
+    word, _, limits = fields.partition(" ")
+    if word not in _TYPES:
+        return {"$ref": f"#/definitions/{word}"}
+    if word == "any":
+        return {}
+    if word == "date-time":
+        return {"type": "string", "format": word}
+    ends = zip(("minimum", "maximum"), limits.split(".."), strict=True) if limits else ()
+    return {"type": word} | {name: float(end) for name, end in ends if end}
