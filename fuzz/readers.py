@@ -16,7 +16,7 @@ import numpy as np
 from bundles import bundles, read_bundle
 from containers import in_zip, mutate_database, mutate_mcap
 from examples import RUN, bags, example, recording, records, scenarios
-from mrpbench_analysis.observed_run import Sampling, observe, observe_own
+from mrpbench_analysis.observed_run import Sampling, observe, observe_recording
 from mrpbench_controllers_dwb.dwb import Dwb
 from mrpbench_exporters_rosbag2 import Rosbag2
 from mrpbench_localizers_amcl import Amcl
@@ -187,7 +187,7 @@ def read_bag(file: Path) -> None:
     observed = Rosbag2().read(file)
     own = observed.context
     if own is not None and "time" in observed.channels and len(observed.tracks) == len(own.fleet):
-        observe_own(observed, own)
+        observe_recording(observed, own)
     elif own is not None:
         observe(observed, own.world, own.fleet, own.scenario, Sampling(), assigned=own.assigned)
 

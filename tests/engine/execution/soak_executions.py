@@ -58,8 +58,9 @@ DRAWS = {"at once": 1000, "copied": 12, "slow": 1}
 
 
 def components(kind):
-    """The classes of a kind that are installed, by name."""
-    return {entry.name: entry.load() for entry in entry_points(group=f"mrpbench.{kind}")}
+    """The classes of a kind that are installed and need nobody outside, by name."""
+    loaded = {entry.name: entry.load() for entry in entry_points(group=f"mrpbench.{kind}")}
+    return {name: cls for name, cls in loaded.items() if not cls.live}
 
 
 def planners():

@@ -324,7 +324,7 @@ def test_a_plan_after_the_limit(forger, found):
 
 def test_a_negative_time(forger, found):
     forger.edit(lambda record: record["timing"].update(planning_s=-1.0))
-    found(forger.pack(), "times", "no number of 0 or more")
+    found(forger.pack(), "times", "is not a number of 0 or more")
 
 
 def test_a_faster_simulation(forger, found):
