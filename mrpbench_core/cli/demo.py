@@ -1,10 +1,13 @@
-"""`mrpbench demo`: compare two planners with the whole stack, on a few small scenarios."""
+"""`mrpbench demo`: compare three planners with the whole stack, on a few small scenarios."""
 
 import argparse
+import os
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from mrpbench_core.cli.export import export
 from mrpbench_core.cli.output.progress import Printed
 from mrpbench_core.cli.output.replays import replay_writer
 from mrpbench_core.cli.output.summary import plugins_line, print_summary
@@ -30,11 +33,11 @@ WANTED = {
     "controller": ("pure_pursuit",),
 }
 """Plugins of each kind in order of preference: the demo uses the first that works here."""
-ALONE = "astar"
-"""The planner that is compared with it, if it is installed: it plans for each robot as if there were no others."""
+COMPARED = ("astar", "cbs", "eecbs")
+"""The planners that are compared, if all are installed: the first plans for each robot as if there were no others."""
 LIBRARIES = {"pybullet": "pybullet", "mujoco": "mujoco"}
 """Modules without which a plugin does not work, although it is installed."""
-ROBOTS, SEEDS = 9, 3
+ROBOTS, SEEDS, WORKERS, BAG = 12, 14, 4, "rosbag2"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -44,10 +47,13 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Do the runs, say what they show, and print where the results are."""
+    workers = min(WORKERS, len(os.sched_getaffinity(0)))
     with slots_of_this_process() as slots:
         study = read_study(_configuration())
         print(plugins_line([study]), flush=True)
-        done = run_study(study, StudyOptions(out=arguments.out, rerun="all", progress=Printed()), slots)
+        done = run_study(
+            study, StudyOptions(out=arguments.out, workers=workers, rerun="all", progress=Printed()), slots
+        )
     if done.mistakes:
         raise InputError(next(iter(done.mistakes.values())))
     print_summary(done.results)
@@ -67,6 +73,7 @@ def _configuration() -> dict[str, Any]:
         chosen[kind] = working[0]
         if chosen[kind] != names[0]:
             print(f"{kind} {names[0]} is not available here ({_why(kind, names[0])}); the demo uses {chosen[kind]}")
+    compared = list(COMPARED) if all(_works("planner", name) for name in COMPARED) else [chosen["planner"]]
     return {
         "name": "demo",
         "world": "office",
@@ -74,15 +81,10 @@ def _configuration() -> dict[str, Any]:
         "scenario": {"plugin": "random", "robots": ROBOTS},
         **chosen,
         "dispatcher": "all_at_once",
-        "export": ["rosbag2"] if _works("format", "rosbag2") else [],
         "recording": {"scans": True},
-        "limits": {"planning": 20.0, "execution": 120.0},
-        "matrix": {"planner": _compared(chosen["planner"]), "seed": list(range(SEEDS))},
+        "limits": {"planning": 20.0, "execution": 150.0},
+        "matrix": {"planner": compared, "seed": list(range(SEEDS))},
     }
-
-
-def _compared(planner: str) -> list[str]:
-    return [ALONE, planner] if _works("planner", ALONE) else [planner]
 
 
 def _works(kind: str, name: str) -> bool:
@@ -100,8 +102,7 @@ def _why(kind: str, name: str) -> str:
 
 
 def _show(results: Results) -> None:
-    records = list(results)
-    print(answer(records))
+    print(answer(records := list(results)))
     record = next((it for it in records if it["status"] != RunStatus.SUCCEEDED), records[-1])
     paths = results.paths(record["run_id"])
     print(f"shown      {record['config']['planner']['plugin']}, seed {record['config']['seed']}: {record['status']}")
@@ -121,17 +122,21 @@ def _show(results: Results) -> None:
         except InputError as error:
             print(f"picture    none: {error}")
         recording.close()
-    if paths.exports.is_dir():
-        for bag in sorted(paths.exports.iterdir()):
-            print(f"bag        {_near(bag)}")
+    if paths.recording.is_file() and _works("format", BAG):
+        for bag in export(f"{results.folder.path}:{record['run_id']}", {"plugin": BAG}, None):
+            print(f"bag        {_near(Path(bag).absolute())}")
 
 
 def answer(records: Sequence[Mapping[str, Any]]) -> str:
     """Say in one sentence how many runs of each planner arrive."""
-    arrived: dict[str, list[bool]] = {}
-    for record in records:
-        arrived.setdefault(record["config"]["planner"]["plugin"], []).append(record["status"] == RunStatus.SUCCEEDED)
-    parts = [f"with {name} all robots arrive in {sum(runs)} of {len(runs)} runs" for name, runs in arrived.items()]
+    planners = list(dict.fromkeys(record["config"]["planner"]["plugin"] for record in records))
+    arrived = Counter(it["config"]["planner"]["plugin"] for it in records if it["status"] == RunStatus.SUCCEEDED)
+    runs, parts = len(records) // len(planners), list[str]()
+    for count in sorted({arrived[name] for name in planners}):
+        names = " and ".join(name for name in planners if arrived[name] == count)
+        parts.append(
+            f"with {names} all robots arrive in {f'all {runs}' if count == runs else f'{count} of {runs}'} runs"
+        )
     return f"{ROBOTS} robots in the office: {', '.join(parts)}."
 
 
