@@ -61,7 +61,7 @@ class TaskBoard:
         self.resting: set[int] = set()
         """All robots that rest at their errands, and perhaps others."""
         self.changed: set[int] = set(range(robots))
-        """Robots whose errands ahead have changed; whoever takes note of that empties it."""
+        """Robots whose errands ahead have changed, until a reader empties it."""
         self.finished = 0
         """Tasks that are done or given up, or that no robot can do."""
         self.events: list[TaskEvent] = []

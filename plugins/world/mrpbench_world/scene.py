@@ -52,11 +52,11 @@ def scene_of(world: World, robots: list[PlacedRobot] | None = None, motion: Moti
 def robots_of(recording: Recording) -> list[PlacedRobot]:
     """The robots of a run where they begin: by the first sample, or by the scenario if nothing was executed."""
     context = recording.context()
-    heights, scenario = elevations(context.world), context.scenario
-    if has_motion(recording):
-        poses = motion_of(recording).pose[0]
+    scenario, motion = context.scenario, motion_of(recording)
+    if motion is not None:
+        poses = motion.pose[0]
     else:  # a start without a yaw has the yaw 0
-        height = np.array(heights)[scenario.start_level]
+        height = np.array(elevations(context.world))[scenario.start_level]
         poses = np.column_stack([scenario.start[:, :2], height, np.nan_to_num(scenario.start[:, 2])])
     return [
         PlacedRobot(name=name, model=model, pose=(x, y, yaw), elevation=z)
@@ -64,15 +64,11 @@ def robots_of(recording: Recording) -> list[PlacedRobot]:
     ]
 
 
-def has_motion(recording: Recording) -> bool:
-    """Tell whether a recording holds poses; a run that ended before its execution has none."""
-    return pose_channel(recording.channels) is not None and len(recording.channel("time")) > 0
-
-
-def motion_of(recording: Recording) -> Motion:
-    """The true poses of a recording that has motion, or estimates where the truth is unknown."""
+def motion_of(recording: Recording) -> Motion | None:
+    """The true poses of a recording, or estimates where the truth is unknown; None if nothing was executed."""
     name = pose_channel(recording.channels)
-    assert name is not None, "see `has_motion`"
+    if name is None or not len(recording.channel("time")):
+        return None
     pose = np.asarray(recording.channel(name), float)
     level = recording.channel("level") if "level" in recording.channels else np.zeros(pose.shape[:2], int)
     height = np.array(elevations(recording.context().world))[level]

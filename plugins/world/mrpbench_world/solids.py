@@ -1,12 +1,14 @@
 """What a world and its robots are made of: upright prisms, and leaves of doors that slide or turn."""
 
 import math
+from collections import Counter
 from collections.abc import Iterator
 
 import attrs
 import numpy as np
-from mrpbench_simulators_bodies.body import RobotBody, plain_body
-from mrpbench_simulators_bodies.polygons import convex_parts, raster_rectangles
+from mrpbench_simulators_bodies.body import CLEARANCE, PLAY, RobotBody, plain_body
+from mrpbench_simulators_bodies.polygons import convex_parts, convex_solids
+from mrpbench_simulators_bodies.scene import HEIGHT
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Float
@@ -16,14 +18,16 @@ from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.solids import wall_boxes
 from mrpbench_core.model.worlds.world import Level, World
 
-WALL_HEIGHT = 2.5
-"""metres: the height to which RMF's generator of Gazebo worlds builds walls."""
 FLOOR = 0.1
 """metres of a floor's thickness."""
 MARGIN = 1.0
 """metres by which the floor of a level without a drawn one reaches beyond everything solid."""
-CLEARANCE, PLAY = 0.01, 0.0005
-"""metres between the floor and the body of a robot, and its casters, when it is level."""
+STEP_S = 0.004
+"""Simulated seconds of a physics step of the other program."""
+LEAF_MASS = 10.0
+"""kilogram of a leaf of a door."""
+GREY, WOOD, BLUE = (0.7, 0.7, 0.7), (0.55, 0.4, 0.25), (0.2, 0.35, 0.6)
+"""Colours (red, green, blue) of walls and floors, of doors, and of robots."""
 
 
 @attrs.frozen(kw_only=True, eq=False)
@@ -64,6 +68,14 @@ class Leaf:
     """metres that it slides."""
     turn: float = 0.0
     """radians that it turns, counter-clockwise."""
+
+    @property
+    def axis(self) -> tuple[tuple[float, float, float], float]:
+        """Axis of its joint, and the metres or radians by which it opens along or about it."""
+        if self.hinge is not None:
+            return (0.0, 0.0, math.copysign(1.0, self.turn)), abs(self.turn)
+        length = math.hypot(*self.travel)
+        return (self.travel[0] / length, self.travel[1] / length, 0.0), length
 
 
 @attrs.frozen(kw_only=True, eq=False)
@@ -119,15 +131,12 @@ def walls_of(world: World) -> list[Prism]:
 
 
 def _bases(level: Level) -> Iterator[tuple[str, int, Float, float]]:
-    walls = wall_boxes(level.walls, level.wall_thickness).reshape(-1, 4, 4)[..., :2]
-    yield from (("wall", number, base, WALL_HEIGHT) for number, base in enumerate(walls))
-    parts = [
-        (part, obstacle.height) for obstacle in level.obstacles for part in convex_parts(np.asarray(obstacle.polygon))
-    ]
-    yield from (("obstacle", number, base, height) for number, (base, height) in enumerate(parts))
-    if level.occupancy is not None:
-        rectangles = raster_rectangles(level.occupancy)
-        yield from (("block", number, base, WALL_HEIGHT) for number, base in enumerate(rectangles))
+    """Kind, number within the kind, base and height of each solid of a level."""
+    numbers = Counter[str]()
+    for part, base in convex_solids(level):
+        kind, _, index = part.partition(" ")
+        yield kind, numbers[kind], base, level.obstacles[int(index)].height if index else HEIGHT
+        numbers[kind] += 1
 
 
 def floors_of(world: World, extra: Float) -> list[Prism]:

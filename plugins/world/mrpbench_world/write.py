@@ -17,7 +17,7 @@ from mrpbench_world.formats.mjcf import write_mjcf
 from mrpbench_world.formats.raster import write_movingai_map, write_robots, write_ros_map
 from mrpbench_world.formats.sdf import write_sdf
 from mrpbench_world.formats.usd import write_usd
-from mrpbench_world.scene import Scene, has_motion, motion_of, robots_of, scene_of
+from mrpbench_world.scene import Scene, motion_of, robots_of, scene_of
 
 RESOLUTION = 0.05
 """metres per pixel of a ROS map."""
@@ -71,8 +71,7 @@ def write_run(recording: Recording, file: Path) -> None:
     elif file.suffix == ".map":
         raise InputError("a .map has no robots", hint="leave out --run and name the world")
     else:
-        motion = motion_of(recording) if has_motion(recording) else None
-        _write_scene(file, scene_of(context.world, robots_of(recording), motion))
+        _write_scene(file, scene_of(context.world, robots_of(recording), motion_of(recording)))
 
 
 def _write_map(file: Path, world: World, cell_size: float | None) -> None:

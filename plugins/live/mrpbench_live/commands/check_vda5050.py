@@ -18,7 +18,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
         "A vehicle is asked, by orders and actions that do not move it; it has to be idle. A fleet control is listened"
-        " to while it works. Exit code: 0 no rule is broken, 1 some are, 2 nobody can be reached."
+        " to while it works. Exit code: 0 no rule is broken, 1 some are, 2 the party cannot be reached."
     )
     parser.add_argument("party", choices=("vehicle", "control"), help="who is checked")
     parser.add_argument("url", metavar="URL", help="broker, e.g. mqtt://127.0.0.1:1883")

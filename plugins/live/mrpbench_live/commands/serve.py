@@ -23,7 +23,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
         "The study must describe one run; its planner, dispatcher and tasks are replaced by `live`. Exit code: 0 the"
-        " run has a definite status, 1 it crashed, 2 the configuration is wrong or nobody can be reached, 130"
+        " run has a definite status, 1 it crashed, 2 the configuration is wrong or the broker cannot be reached, 130"
         " interrupted."
     )
     add_configuration(parser)

@@ -106,7 +106,7 @@ class LiveDispatcher(Dispatcher):
         """Connect with the outside party.
 
         Raises:
-            InputError: the components that it needs are not chosen, or nobody can be reached.
+            InputError: the components that it needs are not chosen, or the outside party cannot be reached.
         """
         if _Run.site is None:
             raise InputError("dispatcher: `live` needs `tasks: live` and `planner: live`; `mrpbench serve` sets them")

@@ -41,5 +41,5 @@ class Interface(Component):
         """Begin; robots stand at the ends of their `paths`, which are empty.
 
         Raises:
-            InputError: nobody can be reached, or the site cannot be served.
+            InputError: the outside party cannot be reached, or the site cannot be served.
         """

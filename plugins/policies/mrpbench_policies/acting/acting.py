@@ -59,6 +59,6 @@ def check_choice(answer: Any, robots: int, file: Path) -> Float:
         robot = int(wrong.argmax())
         raise InputError(f"returned action {actions[robot]} for robot_{robot}, not 0 to {len(ACTIONS) - 1}", file=file)
     scores = np.zeros((robots, len(ACTIONS)))
-    scores[:, 0] = CERTAIN / 2  # whoever may not do what it wants rather stays
+    scores[:, 0] = CERTAIN / 2  # a robot that may not do what it wants rather stays
     scores[np.arange(robots), actions] = CERTAIN
     return scores

@@ -53,11 +53,9 @@ class PythonProcess(Acting):
 
     def _ask(self, *request: Any) -> Any:
         assert self._process.stdin is not None
-        try:
+        with suppress(BrokenPipeError):  # then `_receive` says how the process ended
             pickle.dump(request, self._process.stdin)
             self._process.stdin.flush()
-        except BrokenPipeError:
-            pass  # its answer, or that it has none, says why
         return self._receive()
 
     def _receive(self) -> Any:

@@ -11,7 +11,7 @@ def next_cells(state: FleetState, target: Int, actions: Int, rings: bool) -> Int
 
     A robot that is between two cells has its own and the next one, `target` i8[b,n], to itself; -1 = the robot is not.
     It leaves the first, so that another one may be on its way there. Apart from that conflicts are resolved by the rule
-    `soft`, so that every robot can go on as soon as the one before it has left, and nobody waits for ever.
+    `soft`, so that every robot can go on as soon as the one before it has left, and no robot waits forever.
 
     Args:
         state: where the robots are.

@@ -1,13 +1,13 @@
 """The candidates of a study, and the settings in which they race."""
 
-import json
 from collections.abc import Sequence
 
 import attrs
 
 from mrpbench_core.engine.loading.runs import StudyRun, StudyRuns
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.report.reading.axes import NO_AXES, Axes, find_axes, name_axes
+from mrpbench_core.report.reading.axes import Axes, name_axes
+from mrpbench_search.asking.configurations import with_axes
 
 CHOICES = ("planner", "assigner", "dispatcher", "navigator", "controller", "localizer")
 """Blocks in which candidates differ by default; in all other options settings differ."""
@@ -42,12 +42,8 @@ def find_candidates(study: StudyRuns, choices: Sequence[str] = CHOICES) -> list[
     Raises:
         InputError: a setting has one candidate, or its candidates have different seeds.
     """
-    configs: dict[str, list[StudyRun]] = {}
-    for point in study.runs:
-        identifying = {key: value for key, value in point.canonical.items() if key not in NO_AXES}
-        configs.setdefault(json.dumps(identifying), []).append(point)
     settings: dict[str, Setting] = {}
-    for axes, points in zip(find_axes([json.loads(text) for text in configs]), configs.values(), strict=True):
+    for axes, points in with_axes(study):
         chosen = {key: value for key, value in axes.items() if _is_of(key, choices)}
         others = {key: value for key, value in axes.items() if key not in chosen}
         setting = settings.setdefault(repr(others), Setting(name=name_axes(others), axes=others))

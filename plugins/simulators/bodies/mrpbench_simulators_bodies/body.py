@@ -14,7 +14,7 @@ import numpy as np
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import RobotModel
 
-_CLEARANCE = 0.01
+CLEARANCE = 0.01
 """metres between the floor and the body of a robot without a URDF."""
 PLAY = 0.0005
 """metres between floor and casters when a robot is level, so that its wheels bear the weight."""
@@ -115,7 +115,7 @@ def plain_body(robot: RobotModel) -> RobotBody:
 
     There a real robot has its casters. The weight is over the axle.
     """
-    low, high = _CLEARANCE, robot.height
+    low, high = CLEARANCE, robot.height
     footprint = robot.footprint.tolist()
     front, rear = max(x for x, _ in footprint), min(x for x, _ in footprint)
     glides = [(end * 0.9, 0.0, PLAY) for end in (front, rear)]

@@ -1,13 +1,30 @@
 """Solids of a level as convex polygons."""
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.geometry import inside
 from mrpbench_core.model.worlds.occupancy import Occupancy
+from mrpbench_core.model.worlds.solids import wall_boxes
+from mrpbench_core.model.worlds.world import Level
 
 _FRAME = 1.0
 """metres: the thickness of what is solid outside the edge of a raster."""
+
+
+def convex_solids(level: Level) -> Iterator[tuple[str, Float]]:
+    """Everything solid on a level that does not move, as convex polygons f8[k,2], counter-clockwise, that may overlap.
+
+    Each with what it is a part of: `wall`, `obstacle i` or `block` (of a raster).
+    """
+    for box in wall_boxes(level.walls, level.wall_thickness).reshape(-1, 4, 4):
+        yield "wall", box[:, :2]
+    for index, obstacle in enumerate(level.obstacles):
+        yield from ((f"obstacle {index}", part) for part in convex_parts(np.asarray(obstacle.polygon)))
+    if level.occupancy is not None:
+        yield from (("block", rectangle) for rectangle in raster_rectangles(level.occupancy))
 
 
 def convex_parts(polygon: Float) -> list[Float]:

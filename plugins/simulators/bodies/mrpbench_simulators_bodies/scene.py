@@ -10,11 +10,10 @@ from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Fleet, RobotModel
 from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.level_layout import LevelLayout
-from mrpbench_core.model.worlds.solids import wall_boxes
 from mrpbench_core.model.worlds.world import World
 from mrpbench_simulators_bodies.body import RobotBody, plain_body
 from mrpbench_simulators_bodies.leaves import Leaf, leaves_of
-from mrpbench_simulators_bodies.polygons import convex_parts, raster_rectangles
+from mrpbench_simulators_bodies.polygons import convex_solids
 from mrpbench_simulators_bodies.urdf import described_body
 
 HEIGHT = 2.5
@@ -53,11 +52,7 @@ class Scene:
         """The same as convex polygons f8[k,2], counter-clockwise, which may overlap."""
         polygons_in_plane: list[Float] = []
         for index, level in enumerate(self.world.levels):
-            polygons = [box[:, :2] for box in wall_boxes(level.walls, level.wall_thickness).reshape(-1, 4, 4)]
-            for obstacle in level.obstacles:
-                polygons += convex_parts(np.asarray(obstacle.polygon))
-            if level.occupancy is not None:
-                polygons += raster_rectangles(level.occupancy)
+            polygons = [polygon for _, polygon in convex_solids(level)]
             polygons_in_plane += [self.layout.to_plane(it, np.full(len(it), index, np.int16)) for it in polygons]
         return polygons_in_plane
 

@@ -4,24 +4,21 @@ Robots have a free joint, two driven wheels with velocity actuators `robot_i_lef
 second), and a site `robot_i_lidar`. Leaves of doors have a joint that is 0 when they are shut.
 """
 
-import math
 from xml.etree import ElementTree as ET
 
 import numpy as np
 
+from mrpbench_world.formats.meshes import mesh
+from mrpbench_world.formats.xml import numbers, opaque
 from mrpbench_world.scene import Scene
-from mrpbench_world.solids import Leaf, PlacedRobot, Prism
+from mrpbench_world.solids import BLUE, GREY, LEAF_MASS, STEP_S, WOOD, Leaf, PlacedRobot, Prism
 
-STEP_S = 0.004
-"""Simulated seconds of a physics step."""
-_LEAF_MASS = 10.0
 _ROTOR = 0.5
 """Inertia of a motor behind its gear, as a share of that of the whole mass at the rim of its wheel."""
 _MOTOR_LAG_S = 0.01
 """Seconds in which a motor that bears the whole mass approaches its speed."""
 _STIFF = {"solref": "0.02 1", "solimp": "0.999 0.999 0.001 0.5 2"}
 """Contacts of wheels as stiff as those of the simulator `mujoco`, so that speeds err by less than a thousandth."""
-GREY, WOOD, BLUE = "0.7 0.7 0.7 1", "0.55 0.4 0.25 1", "0.2 0.35 0.6 1"
 
 
 def write_mjcf(scene: Scene) -> str:
@@ -43,60 +40,54 @@ def write_mjcf(scene: Scene) -> str:
     return f"{ET.tostring(root, encoding='unicode')}\n"
 
 
-def _geom(parent: ET.Element, asset: ET.Element, prism: Prism, colour: str, **more: str) -> None:
+def _geom(parent: ET.Element, asset: ET.Element, prism: Prism, colour: tuple[float, float, float], **more: str) -> None:
     """A box, or the hull of the corners."""
     if (box := prism.box) is not None:
         middle, sides, yaw = box
-        place = {"pos": _numbers(*middle), "euler": _numbers(0, 0, yaw), "size": _numbers(*(sides / 2))}
-        ET.SubElement(parent, "geom", {"name": prism.name, "type": "box", "rgba": colour, **place, **more})
+        place = {"pos": numbers(*middle), "euler": numbers(0, 0, yaw), "size": numbers(*(sides / 2))}
+        ET.SubElement(parent, "geom", {"name": prism.name, "type": "box", "rgba": opaque(colour), **place, **more})
         return
-    corners = [(*point, height) for height in (prism.bottom, prism.top) for point in prism.base]
-    ET.SubElement(asset, "mesh", name=prism.name, vertex=_numbers(*np.ravel(corners)))
-    ET.SubElement(parent, "geom", {"name": prism.name, "type": "mesh", "mesh": prism.name, "rgba": colour, **more})
+    ET.SubElement(asset, "mesh", name=prism.name, vertex=numbers(*mesh(prism)[0].ravel()))
+    ET.SubElement(
+        parent, "geom", {"name": prism.name, "type": "mesh", "mesh": prism.name, "rgba": opaque(colour), **more}
+    )
 
 
 def _door(world: ET.Element, asset: ET.Element, leaf: Leaf) -> None:
     body = ET.SubElement(world, "body", name=leaf.name, gravcomp="1")
     joint = {"name": f"{leaf.name}_joint", "damping": "5"}
-    if leaf.hinge is None:
-        length = math.hypot(*leaf.travel)
-        axis = _numbers(leaf.travel[0] / length, leaf.travel[1] / length, 0)
-        joint |= {"type": "slide", "axis": axis, "range": _numbers(0, length)}
-    else:
-        turns = {"axis": _numbers(0, 0, math.copysign(1, leaf.turn)), "range": _numbers(0, abs(leaf.turn))}
-        joint |= {"type": "hinge", "pos": _numbers(*leaf.hinge, leaf.prism.bottom), **turns}
+    axis, upper = leaf.axis
+    joint |= {"type": "slide" if leaf.hinge is None else "hinge", "axis": numbers(*axis), "range": numbers(0, upper)}
+    if leaf.hinge is not None:
+        joint["pos"] = numbers(*leaf.hinge, leaf.prism.bottom)
     ET.SubElement(body, "joint", joint)
     # Leaves hang in their frame: they touch robots, not the floor, walls or each other.
-    _geom(body, asset, leaf.prism, WOOD, mass=_numbers(_LEAF_MASS), contype="2", conaffinity="0")
+    _geom(body, asset, leaf.prism, WOOD, mass=numbers(LEAF_MASS), contype="2", conaffinity="0")
 
 
 def _robot(world: ET.Element, asset: ET.Element, actuator: ET.Element, robot: PlacedRobot) -> None:
     model, (x, y, yaw) = robot.model, robot.pose
-    place = {"pos": _numbers(x, y, robot.elevation), "euler": _numbers(0, 0, yaw)}
+    place = {"pos": numbers(x, y, robot.elevation), "euler": numbers(0, 0, yaw)}
     body = ET.SubElement(world, "body", {"name": robot.name, **place})
     ET.SubElement(body, "freejoint", name=f"{robot.name}_base")
     rigid = robot.rigid
-    moments = _numbers(*np.diag(rigid.inertia))
-    ET.SubElement(body, "inertial", pos=_numbers(*rigid.centre), mass=_numbers(rigid.mass), diaginertia=moments)
+    moments = numbers(*np.diag(rigid.inertia))
+    ET.SubElement(body, "inertial", pos=numbers(*rigid.centre), mass=numbers(rigid.mass), diaginertia=moments)
     glides = {"friction": "0 0 0", "condim": "1", "priority": "1", "contype": "3", "conaffinity": "3"}
     for prism in robot.body():
         named = Prism(name=f"{robot.name}_{prism.name}", base=prism.base, bottom=prism.bottom, top=prism.top)
         _geom(body, asset, named, BLUE, **glides)
     for middle, radius in robot.casters():
-        ET.SubElement(body, "geom", {"type": "sphere", "size": _numbers(radius), "pos": _numbers(*middle)} | glides)
+        ET.SubElement(body, "geom", {"type": "sphere", "size": numbers(radius), "pos": numbers(*middle)} | glides)
     for side, rolling in zip(("left", "right"), rigid.wheels, strict=True):
-        wheel = ET.SubElement(body, "body", name=f"{robot.name}_{side}_wheel", pos=_numbers(*rolling.place))
+        wheel = ET.SubElement(body, "body", name=f"{robot.name}_{side}_wheel", pos=numbers(*rolling.place))
         joint = f"{robot.name}_{side}_joint"
-        rotor = _numbers(_ROTOR * model.mass * rolling.radius**2)
+        rotor = numbers(_ROTOR * model.mass * rolling.radius**2)
         ET.SubElement(wheel, "joint", name=joint, type="hinge", axis="0 1 0", armature=rotor)
-        sphere = {"type": "sphere", "size": _numbers(rolling.radius), "mass": _numbers(rolling.mass)}
+        sphere = {"type": "sphere", "size": numbers(rolling.radius), "mass": numbers(rolling.mass)}
         ET.SubElement(wheel, "geom", sphere | {"priority": "1"} | _STIFF)
-        motor = {"kv": _numbers(model.mass / 2 * rolling.radius**2 / _MOTOR_LAG_S)}
-        limit = {"forcerange": _numbers(-rigid.torque, rigid.torque)}
+        motor = {"kv": numbers(model.mass / 2 * rolling.radius**2 / _MOTOR_LAG_S)}
+        limit = {"forcerange": numbers(-rigid.torque, rigid.torque)}
         ET.SubElement(actuator, "velocity", {"name": f"{robot.name}_{side}", "joint": joint} | motor | limit)
     if model.lidar is not None:
-        ET.SubElement(body, "site", name=f"{robot.name}_lidar", pos=_numbers(*model.lidar.mount), size="0.01")
-
-
-def _numbers(*values: float) -> str:
-    return " ".join(f"{float(value):.9g}" for value in values)
+        ET.SubElement(body, "site", name=f"{robot.name}_lidar", pos=numbers(*model.lidar.mount), size="0.01")

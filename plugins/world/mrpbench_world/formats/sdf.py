@@ -12,8 +12,9 @@ from xml.etree import ElementTree as ET
 import numpy as np
 from mrpbench_simulators_bodies.body import Wheel
 
+from mrpbench_world.formats.xml import numbers, opaque
 from mrpbench_world.scene import Scene
-from mrpbench_world.solids import Leaf, PlacedRobot, Prism
+from mrpbench_world.solids import BLUE, GREY, LEAF_MASS, STEP_S, WOOD, Leaf, PlacedRobot, Prism
 
 VERSION = "1.10"
 SYSTEMS = (
@@ -22,10 +23,6 @@ SYSTEMS = (
     ("gz-sim-scene-broadcaster-system", "gz::sim::systems::SceneBroadcaster"),
     ("gz-sim-sensors-system", "gz::sim::systems::Sensors"),
 )
-STEP_S = 0.004
-"""Simulated seconds of a physics step."""
-_LEAF_MASS = 10.0
-GREY, WOOD, BLUE = "0.7 0.7 0.7 1", "0.55 0.4 0.25 1", "0.2 0.35 0.6 1"
 
 
 def write_sdf(scene: Scene) -> str:
@@ -40,8 +37,8 @@ def write_sdf(scene: Scene) -> str:
         if file == "gz-sim-sensors-system":
             _add(system, "render_engine", "ogre2")
     light = ET.SubElement(world, "light", name="sun", type="directional")
-    _add(light, "pose", _numbers(0, 0, 10, 0, 0, 0))
-    _add(light, "direction", _numbers(-0.5, 0.2, -1))
+    _add(light, "pose", numbers(0, 0, 10, 0, 0, 0))
+    _add(light, "direction", numbers(-0.5, 0.2, -1))
     _static(world, "floor", scene.floors, GREY)
     _static(world, "walls", scene.walls, GREY)
     for leaf in scene.leaves:
@@ -52,7 +49,7 @@ def write_sdf(scene: Scene) -> str:
     return f'<?xml version="1.0"?>\n{ET.tostring(root, encoding="unicode")}\n'
 
 
-def _static(world: ET.Element, name: str, prisms: Iterable[Prism], colour: str) -> None:
+def _static(world: ET.Element, name: str, prisms: Iterable[Prism], colour: tuple[float, float, float]) -> None:
     model = ET.SubElement(world, "model", name=name)
     _add(model, "static", "true")
     link = ET.SubElement(model, "link", name="link")
@@ -60,20 +57,20 @@ def _static(world: ET.Element, name: str, prisms: Iterable[Prism], colour: str) 
         _shapes(link, prism, colour)
 
 
-def _shapes(link: ET.Element, prism: Prism, colour: str, *, frictionless: bool = False) -> None:
+def _shapes(link: ET.Element, prism: Prism, colour: tuple[float, float, float], *, frictionless: bool = False) -> None:
     """Add a prism as collision and visual."""
     for kind in ("collision", "visual"):
         shape = ET.SubElement(link, kind, name=f"{prism.name}_{kind}")
         geometry = ET.Element("geometry")
         if (box := prism.box) is not None:
             middle, sides, yaw = box
-            _add(shape, "pose", _numbers(*middle, 0, 0, yaw))
-            _add(ET.SubElement(geometry, "box"), "size", _numbers(*sides))
+            _add(shape, "pose", numbers(*middle, 0, 0, yaw))
+            _add(ET.SubElement(geometry, "box"), "size", numbers(*sides))
         else:  # a polyline is extruded from z = 0 of its shape upwards
-            _add(shape, "pose", _numbers(0, 0, prism.bottom, 0, 0, 0))
+            _add(shape, "pose", numbers(0, 0, prism.bottom, 0, 0, 0))
             polyline = ET.SubElement(geometry, "polyline")
             for point in (*prism.base, prism.base[0]):
-                _add(polyline, "point", _numbers(*point))
+                _add(polyline, "point", numbers(*point))
             _add(polyline, "height", prism.top - prism.bottom)
         shape.append(geometry)
         if kind == "visual":
@@ -90,27 +87,22 @@ def _door(world: ET.Element, leaf: Leaf) -> None:
     assert box is not None, "leaves are boxes"
     middle, sides, yaw = box
     inertial = ET.SubElement(link, "inertial")
-    _add(inertial, "pose", _numbers(*middle, 0, 0, yaw))
+    _add(inertial, "pose", numbers(*middle, 0, 0, yaw))
     squared = sides**2
-    _inertia(inertial, _LEAF_MASS, _LEAF_MASS / 12 * (squared.sum() - squared))
+    _inertia(inertial, LEAF_MASS, LEAF_MASS / 12 * (squared.sum() - squared))
     _add(link, "gravity", "false")
     _shapes(link, leaf.prism, WOOD)
     joint = ET.SubElement(model, "joint", name="joint", type="prismatic" if leaf.hinge is None else "revolute")
     _add(joint, "parent", "world")
     _add(joint, "child", "leaf")
-    axis = ET.Element("axis")
-    if leaf.hinge is None:
-        length = math.hypot(*leaf.travel)
-        _add(axis, "xyz", _numbers(leaf.travel[0] / length, leaf.travel[1] / length, 0))
-        upper = length
-    else:
-        _add(joint, "pose", _numbers(*leaf.hinge, leaf.prism.bottom, 0, 0, 0))
-        _add(axis, "xyz", _numbers(0, 0, math.copysign(1, leaf.turn)))
-        upper = abs(leaf.turn)
+    if leaf.hinge is not None:
+        _add(joint, "pose", numbers(*leaf.hinge, leaf.prism.bottom, 0, 0, 0))
+    direction, upper = leaf.axis
+    axis = ET.SubElement(joint, "axis")
+    _add(axis, "xyz", numbers(*direction))
     limit = ET.SubElement(axis, "limit")
     _add(limit, "lower", 0)
     _add(limit, "upper", upper)
-    joint.append(axis)
     file, name = "gz-sim-joint-position-controller-system", "gz::sim::systems::JointPositionController"
     system = ET.SubElement(model, "plugin", filename=file, name=name)
     _add(system, "joint_name", "joint")
@@ -120,17 +112,17 @@ def _door(world: ET.Element, leaf: Leaf) -> None:
 def _robot(world: ET.Element, robot: PlacedRobot) -> None:
     model, at = robot.model, robot.pose
     element = ET.SubElement(world, "model", name=robot.name)
-    _add(element, "pose", _numbers(at[0], at[1], robot.elevation, 0, 0, at[2]))
+    _add(element, "pose", numbers(at[0], at[1], robot.elevation, 0, 0, at[2]))
     base = ET.SubElement(element, "link", name="base_footprint")
     rigid = robot.rigid
     inertial = ET.SubElement(base, "inertial")
-    _add(inertial, "pose", _numbers(*rigid.centre, 0, 0, 0))
+    _add(inertial, "pose", numbers(*rigid.centre, 0, 0, 0))
     _inertia(inertial, rigid.mass, np.diag(rigid.inertia))
     for prism in robot.body():
         _shapes(base, prism, BLUE, frictionless=True)
     for number, (middle, radius) in enumerate(robot.casters()):
         shape = ET.SubElement(base, "collision", name=f"caster_{number}_collision")
-        _add(shape, "pose", _numbers(*middle, 0, 0, 0))
+        _add(shape, "pose", numbers(*middle, 0, 0, 0))
         _add(ET.SubElement(ET.SubElement(shape, "geometry"), "sphere"), "radius", radius)
         _without_friction(shape)
     for side, wheel in zip(("left", "right"), rigid.wheels, strict=True):
@@ -158,7 +150,7 @@ def _robot(world: ET.Element, robot: PlacedRobot) -> None:
 def _wheel(model: ET.Element, side: str, wheel: Wheel) -> None:
     name = f"{side}_wheel"
     link = ET.SubElement(model, "link", name=name)
-    _add(link, "pose", _numbers(*wheel.place, -math.pi / 2, 0, 0))  # its z axis is the axle, to the left
+    _add(link, "pose", numbers(*wheel.place, -math.pi / 2, 0, 0))  # its z axis is the axle, to the left
     across, about = wheel.inertia
     _inertia(ET.SubElement(link, "inertial"), wheel.mass, (across, across, about))
     for kind in ("collision", "visual"):
@@ -167,14 +159,14 @@ def _wheel(model: ET.Element, side: str, wheel: Wheel) -> None:
     joint = ET.SubElement(model, "joint", name=f"{name}_joint", type="revolute")
     _add(joint, "parent", "base_footprint")
     _add(joint, "child", name)
-    _add(ET.SubElement(joint, "axis"), "xyz", _numbers(0, 0, 1))
+    _add(ET.SubElement(joint, "axis"), "xyz", numbers(0, 0, 1))
 
 
 def _lidar(link: ET.Element, robot: PlacedRobot) -> None:
     lidar = robot.model.lidar
     assert lidar is not None
     sensor = ET.SubElement(link, "sensor", name="lidar", type="gpu_lidar")
-    _add(sensor, "pose", _numbers(*lidar.mount, 0, 0, 0))
+    _add(sensor, "pose", numbers(*lidar.mount, 0, 0, 0))
     _add(sensor, "topic", f"/{robot.name}/scan")
     _add(sensor, "gz_frame_id", f"{robot.name}/base_scan")
     _add(sensor, "update_rate", lidar.rate)
@@ -197,10 +189,10 @@ def _inertia(inertial: ET.Element, mass: float, moments: Iterable[float]) -> Non
         _add(inertia, name, value)
 
 
-def _material(visual: ET.Element, colour: str) -> None:
+def _material(visual: ET.Element, colour: tuple[float, float, float]) -> None:
     material = ET.SubElement(visual, "material")
-    _add(material, "ambient", colour)
-    _add(material, "diffuse", colour)
+    _add(material, "ambient", opaque(colour))
+    _add(material, "diffuse", opaque(colour))
 
 
 def _without_friction(shape: ET.Element) -> None:
@@ -210,8 +202,4 @@ def _without_friction(shape: ET.Element) -> None:
 
 
 def _add(parent: ET.Element, tag: str, value: str | float) -> None:
-    ET.SubElement(parent, tag).text = value if isinstance(value, str) else _numbers(value)
-
-
-def _numbers(*values: float) -> str:
-    return " ".join(f"{float(value):.9g}" for value in values)
+    ET.SubElement(parent, tag).text = value if isinstance(value, str) else numbers(value)

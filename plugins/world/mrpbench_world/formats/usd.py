@@ -15,9 +15,7 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_world.formats.libraries import library
 from mrpbench_world.formats.meshes import mesh
 from mrpbench_world.scene import Motion, Scene
-from mrpbench_world.solids import Prism
-
-GREY, WOOD, BLUE = (0.7, 0.7, 0.7), (0.55, 0.4, 0.25), (0.2, 0.35, 0.6)
+from mrpbench_world.solids import BLUE, GREY, WOOD, Prism
 
 
 def write_usd(scene: Scene, file: Path) -> None:

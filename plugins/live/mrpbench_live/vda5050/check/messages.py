@@ -1,4 +1,4 @@
-"""What holds for each message of a sender, whoever it is: its schema, its header, and its number."""
+"""What holds for each message of any sender: its schema, its header, and its number."""
 
 import json
 import re
