@@ -23,7 +23,6 @@ from mrpbench_core.files.platforms import require_posix
 from mrpbench_core.version import __version__
 
 COMMANDS = {
-    "demo": "compare three planners on small scenarios, with all that is installed",
     "run": "do the runs of a study that have no record yet",
     "report": "print tables of results with intervals, and write an HTML page",
     "export": "write a stored run in another format",

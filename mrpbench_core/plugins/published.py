@@ -47,7 +47,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-analysis": {"mrpbench.commands": ("analyze", "calibrate", "compare")},
     "mrpbench-publish": {"mrpbench.commands": ("publish", "site", "verify")},
     "mrpbench-replay": {"mrpbench.commands": ("view",)},
-    "mrpbench-scaffold": {"mrpbench.commands": ("init", "new-plugin")},
+    "mrpbench-scaffold": {"mrpbench.commands": ("demo", "init", "new-plugin")},
     "mrpbench-world": {"mrpbench.commands": ("world",)},
     "mrpbench-search": {"mrpbench.commands": ("choose", "evidence", "hunt", "saturate", "size", "tune")},
     "mrpbench-assigners-ortools": {"mrpbench.assigners": ("ortools_mip", "ortools_sat")},

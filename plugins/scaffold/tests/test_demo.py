@@ -3,7 +3,8 @@
 import json
 from pathlib import Path
 
-from mrpbench_core.cli import demo
+from mrpbench_scaffold.commands import demo
+
 from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.kinds import GROUPS
 
