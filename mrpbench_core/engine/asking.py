@@ -26,6 +26,7 @@ def asked_of(config: RunConfig, run_id: str) -> Asked:
         executes=config.executes,
         driven=config.simulator is not None and not config.simulator.executes_runs,
         tasks=config.tasks is not None,
+        task_seed=_task_seed(config),
         limit_s=config.limits.execution,
         period=1 / config.control_rate,
         rate=config.recording.rate,
@@ -37,6 +38,11 @@ def asked_of(config: RunConfig, run_id: str) -> Asked:
         true_poses=granted_localizer(config),
         titles={name: title(value) for name, value in chosen.items() if isinstance(value, Component)},
     )
+
+
+def _task_seed(config: RunConfig) -> int | None:
+    in_periods = config.simulator is None or not config.simulator.executes_runs
+    return config.seed if in_periods and not any(map(is_of_others, components_in(config.tasks))) else None
 
 
 def facts_of_run(config: RunConfig) -> dict[str, Any]:

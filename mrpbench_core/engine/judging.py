@@ -7,6 +7,7 @@ from typing import Any
 import attrs
 
 from mrpbench_core.api.metric import Metric
+from mrpbench_core.api.task_source import TaskSource
 from mrpbench_core.engine.drive.drive import Claims
 from mrpbench_core.engine.record import RunError, RunRecord
 from mrpbench_core.files.errors import InputError
@@ -42,6 +43,7 @@ def record_of(
     paths: RunPaths,
     metrics: Mapping[str, Metric],
     instances: InstanceFolder,
+    source: TaskSource | None,
 ) -> RunRecord:
     """Judge a run, and return its record.
 
@@ -52,6 +54,7 @@ def record_of(
         paths: with its recording, unless it ended before.
         metrics: to measure, of this project only.
         instances: the folder with the instance.
+        source: of its tasks, if they come over time.
 
     Raises:
         OSError: a file cannot be read or written.
@@ -72,7 +75,7 @@ def record_of(
             verdict = broken(f"the recording was damaged: {error.message}")
         else:
             with closing(recording):
-                verdict = judge(asked, recording, prepared.instance, metrics, claims.failure)
+                verdict = judge(asked, recording, prepared.instance, metrics, claims.failure, source)
                 record.executed = asked.executes and "time" in recording.channels
     else:
         paths.recording.unlink(missing_ok=True)  # which has no verdict

@@ -41,7 +41,7 @@ def execute(
     )
     claims = drive(inputs, instance)
     announce(Stage.METRICS, {})
-    record = record_of(asked_of(config, run_id), prepared, claims, paths, config.metrics, instances)
+    record = record_of(asked_of(config, run_id), prepared, claims, paths, config.metrics, instances, config.tasks)
     keep(record, paths, config.recording.keep)
     return record
 

@@ -21,6 +21,8 @@ class Asked:
     """A simulator moves the robots in control periods."""
     tasks: bool
     """Tasks come over time."""
+    task_seed: int | None = None
+    """With which their source is asked again; None: it is not of this project, or is not asked in each period."""
     limit_s: float
     """Simulated seconds after which an execution ends."""
     period: float

@@ -7,6 +7,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.metric import Metric
+from mrpbench_core.api.task_source import TaskSource
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Bool
 from mrpbench_core.model.execution.motion import Mode
@@ -19,6 +20,7 @@ from mrpbench_core.referee.measuring import measure
 from mrpbench_core.referee.motion import motion_fault
 from mrpbench_core.referee.plan_summary import plan_summary
 from mrpbench_core.referee.plans import judge_plan
+from mrpbench_core.referee.releases import release_fault
 from mrpbench_core.referee.tasks import tasks_fault
 from mrpbench_core.store.recording import Recording
 
@@ -54,7 +56,12 @@ class Verdict:
 
 
 def judge(
-    asked: Asked, recording: Recording, instance_name: str | None, metrics: Mapping[str, Metric], said: Failure | None
+    asked: Asked,
+    recording: Recording,
+    instance_name: str | None,
+    metrics: Mapping[str, Metric],
+    said: Failure | None,
+    source: TaskSource | None = None,
 ) -> Verdict:
     """Return the verdict on a run.
 
@@ -64,6 +71,7 @@ def judge(
         instance_name: of the instance that was made for the run; None: the recording holds it.
         metrics: to measure.
         said: how the run ended as its own process says; gives the words where the referee agrees.
+        source: of the tasks that come over time, if it is asked again.
     """
     if recording.instance_name != instance_name:
         return broken("the recording has another instance than the run")
@@ -89,7 +97,7 @@ def judge(
             said_none = f"the planner ended with {result.status}"
             failure = failure or _failure(STATUS[result.status], Stage.PLANNING, said_none)
         elif asked.executes:
-            failure = _executed(asked, run, said)
+            failure = _executed(asked, run, said, source)
         else:
             failure = None
         if failure is not None and failure.status == RunStatus.CONTRACT_BROKEN:
@@ -115,7 +123,7 @@ def _finished(recording: Recording, result: PlanResult, asked: Asked) -> Finishe
     return FinishedRun(context=context, executed=asked.executes, channels=recording.channels, first_routes=first.routes)
 
 
-def _executed(asked: Asked, run: FinishedRun, said: Failure | None) -> Failure | None:
+def _executed(asked: Asked, run: FinishedRun, said: Failure | None, source: TaskSource | None) -> Failure | None:
     """How the execution ended, None if every robot arrived."""
     if not run.executed:
         if said is not None and said.stage == Stage.EXECUTION:
@@ -127,7 +135,10 @@ def _executed(asked: Asked, run: FinishedRun, said: Failure | None) -> Failure |
     time = run.channel("time")
     gave_up = _gave_up(run)
     if asked.tasks:
-        if (fault := tasks_fault(run, asked.driven)) is not None:
+        fault = tasks_fault(run, asked.driven)
+        if fault is None and source is not None:
+            fault = release_fault(run, source, asked)
+        if fault is not None:
             return _failure(RunStatus.CONTRACT_BROKEN, Stage.EXECUTION, f"the recorded tasks are impossible: {fault}")
         failed, missed = gave_up.any() or _unserved(run), "no plan was found and no task was done"
     else:

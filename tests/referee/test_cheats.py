@@ -151,7 +151,7 @@ def test_robots_that_jerk_are_named(results):
     assert "speeds up or slows down at 0.9 s faster than its limits allow" in jerks["error"]["message"]
 
 
-def test_tasks_that_are_said_to_be_done_where_no_robot_was_are_named(results):
+def test_tasks_that_were_not_done_or_are_not_those_of_their_source_are_named(results):
     settings = {
         "simulator": "kinematic",
         "tasks": {"plugin": "poisson", "rate": 20},
@@ -159,12 +159,15 @@ def test_tasks_that_are_said_to_be_done_where_no_robot_was_are_named(results):
         "planner": {"plugin": "rolling_horizon", "planner": "pibt"},
         "metrics": ["tasks"],
     }
-    navigators = ["waypoints", *does("CheatingNavigator", ["claims_tasks"])]
-    honest, cheat = results("tasks", **settings, matrix={"navigator": navigators})
+    cheats = does("CheatingNavigator", ["claims_tasks", "withholds_tasks", "nearer_tasks"])
+    honest, claims, withholds, nearer = results("tasks", **settings, matrix={"navigator": ["waypoints", *cheats]})
     assert honest["metrics"]["tasks.done"] > 0
-    assert cheat["status"] == "contract_broken"
-    assert "the recorded tasks are impossible: errand 0 of task" in cheat["error"]["message"]
-    assert "from its place" in cheat["error"]["message"]
+    for cheat in (claims, withholds, nearer):
+        assert cheat["status"] == "contract_broken"
+        assert "the recorded tasks are impossible: " in cheat["error"]["message"]
+    assert "from its place" in claims["error"]["message"]
+    assert "was to be released before" in withholds["error"]["message"]
+    assert "is not as its source releases it" in nearer["error"]["message"]
 
 
 def test_crowds_and_formats_and_metrics_that_cheat_gain_nothing(results):

@@ -15,7 +15,7 @@ from mrpbench_core.store.paths import instances_of
 Message = dict[str, Any]
 Ask = Callable[[Message, str], Message]
 """Lets a process do a step that the fork server with this key forks, and returns its answer."""
-_NEEDED = {"prepare": SETTINGS, "judge": ("metrics",), "measure": ("metrics",)}
+_NEEDED = {"prepare": SETTINGS, "judge": ("metrics", "tasks"), "measure": ("metrics",)}
 """The settings that a step needs; all if it is not named."""
 LATE_S, SLOWER = 0.1, 1.1
 """Seconds and factor by which the planner may seem slower from outside."""

@@ -142,7 +142,8 @@ def _judge(job: Job, channel: Channel, state: State) -> Answer:
         message = f"what the process of the run says of it has another form: {error}"
         failure = Failure(status=RunStatus.CONTRACT_BROKEN, stage=Stage.METRICS, message=message)
         claims = Claims(failure=failure)
-    record = record_of(asked, prepared, claims, paths, metrics, state.folder(paths.instances))
+    source = None if asked.task_seed is None else state.settings(job["parcel"], ("tasks",))["tasks"]
+    record = record_of(asked, prepared, claims, paths, metrics, state.folder(paths.instances), source)
     keep(record, paths, job["keep"])
     return {"record": jsonable(record.message())}
 

@@ -107,7 +107,8 @@ def _faults(
     asked = Asked.of_message({**facts["asked"], "run_id": record["run_id"]})
     of_others = {metric["number"] for metric in facts["others_metrics"]}
     ours = [number for number in range(len(parcel["config"]["metrics"])) if number not in of_others]
-    verdict = judge(asked, recording, recording.instance_name, _metrics(parcel, ours), _said(record))
+    source = None if asked.task_seed is None else question.tasks
+    verdict = judge(asked, recording, recording.instance_name, _metrics(parcel, ours), _said(record), source)
     status = RunStatus.SUCCEEDED if verdict.failure is None else verdict.failure.status
     if status != record["status"]:
         why = "" if verdict.failure is None else f": {verdict.failure.message}"
