@@ -31,7 +31,7 @@ from mrpbench_core.config.validation import fault_of, stand_in_of, words_of
 from mrpbench_core.files.errors import InputError, InputErrors, in_reading_order, one_line
 from mrpbench_core.files.suggestions import suggest
 from mrpbench_core.plugins.contract import is_of
-from mrpbench_core.plugins.importing import is_interrupt, told
+from mrpbench_core.plugins.importing import attributed_to, is_interrupt
 from mrpbench_core.plugins.provenance import advice_of
 from mrpbench_core.plugins.registry import Registry
 
@@ -193,7 +193,9 @@ class Structure:
         if is_of(cls):
             return cast("Component", self._options(inner, cls, key, {}, chosen.value))
         try:
-            with told(f"{Registry(kind).kind} {chosen.value!r}"):  # defaults, converters and validators are its code
+            with attributed_to(
+                f"{Registry(kind).kind} {chosen.value!r}"
+            ):  # defaults, converters and validators are its code
                 return cast("Component", self._options(inner, cls, key, {}, chosen.value))
         except (InputErrors, Unfit):
             raise

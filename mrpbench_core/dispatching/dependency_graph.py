@@ -143,7 +143,7 @@ class DependencyGraph:
                 remains as it was.
         """
         new = type2_edges(self._problem, moves, self.resources, chosen)
-        old, unchanged = (self.order.kept(which[self.order.before]) for which in (chosen, ~chosen))
+        old, unchanged = (self.order.subset(which[self.order.before]) for which in (chosen, ~chosen))
         order = Type2Edges(*(np.concatenate(columns) for columns in zip(unchanged, new, strict=True)))
         self._check(moves, order, chosen)
         before, after = self._dependencies(old), self._dependencies(new)

@@ -51,7 +51,7 @@ def cycles(moves: Moves, order: Type2Edges, chosen: Bool | None = None) -> list[
     along = moves.robot[1:] == moves.robot[:-1]
     if chosen is not None:
         along &= chosen[1:] & chosen[:-1]
-        order = order.kept(chosen[order.before] & chosen[order.after])
+        order = order.subset(chosen[order.before] & chosen[order.after])
     before, after = _suspects(moves, order, np.flatnonzero(along))
     return strong_components(before.tolist(), after.tolist())
 

@@ -31,7 +31,7 @@ def is_interrupt(error: BaseException) -> bool:
 
 
 @contextmanager
-def told(plugin: str) -> Iterator[None]:
+def attributed_to(plugin: str) -> Iterator[None]:
     """Tell the listener that a plugin is imported, or called while the process can still say nothing else of it."""
     _going.append(plugin)
     _listener(plugin)
@@ -50,7 +50,7 @@ def watched(plugin: str) -> Iterator[None]:
         InputError: the import changes the working directory or leaves a thread running; also at later imports.
     """
     folder, threads = os.getcwd(), threading.active_count()  # noqa: PTH109 - a string for chdir
-    with told(plugin):
+    with attributed_to(plugin):
         yield
     if os.getcwd() != folder:  # noqa: PTH109
         os.chdir(folder)

@@ -30,7 +30,7 @@ def plan_summary(promises: Promises, problem: Problem, result: PlanResult) -> di
     _remember(problem.roadmap)
     setting = fingerprint(attrs.evolve(problem, goals=(), features=problem.features & {Feature.FOOTPRINTS}))
     sound = result.plan is not None and not result.statistics.get("conflicts")
-    bounds = bool({Promise.OPTIMAL, Promise.BOUNDED} & promises.kept) and not result.clock_bound
+    bounds = bool({Promise.OPTIMAL, Promise.BOUNDED} & promises.made) and not result.clock_bound
     return {
         "setting": setting,
         "problem": fingerprint((setting, problem.goals)),

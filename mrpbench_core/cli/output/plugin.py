@@ -11,7 +11,7 @@ from mrpbench_core.api import Metric, hooks
 from mrpbench_core.api.component import Component
 from mrpbench_core.cli.input.plugin_name import hook_named, resolve
 from mrpbench_core.cli.output.table import print_table
-from mrpbench_core.plugins.importing import told
+from mrpbench_core.plugins.importing import attributed_to
 from mrpbench_core.plugins.installed import Provider, load
 from mrpbench_core.plugins.provenance import kind_class, origin
 from mrpbench_core.plugins.registry import Registry
@@ -32,7 +32,7 @@ def facts_of(name: str) -> dict[str, Any]:
         return _facts_of_hook(hook)
     base, plugin = resolve(name)
     cls = Registry(base).get(plugin, Path.cwd())
-    with told(f"{Registry(base).kind} {plugin!r}"):
+    with attributed_to(f"{Registry(base).kind} {plugin!r}"):
         return _facts_of_component(cls)
 
 

@@ -134,12 +134,12 @@ class Crowds:
         movers = self.movers
         if not self.members:
             return inputs
-        bodies, legs = np.hstack([movers.pose[:, :2], movers.velocity]), self._gait.seen(movers, self._period)
+        bodies, legs = np.hstack([movers.pose[:, :2], movers.velocity]), self._gait.legs(movers, self._period)
         level = movers.level.copy()
         level[: self._unmet] = -1
         absent = level < 0
         bodies[absent, :2], legs[absent, :4] = np.inf, np.inf
-        return attrs.evolve(inputs, movers=bodies, mover_level=level, seen=legs)
+        return attrs.evolve(inputs, movers=bodies, mover_level=level, legs=legs)
 
     def _joined(self, movers_of_parts: Sequence[Movers]) -> Movers:
         for part, (first, last) in zip(movers_of_parts, pairwise(self._first), strict=True):

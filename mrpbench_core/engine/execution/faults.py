@@ -225,7 +225,7 @@ class FaultState:
             attrs.evolve(b, robot=b.robot[works], ranges=b.ranges[works]) for b, works in works_of_batch if works.any()
         )
 
-    def heard(self, view: FleetView) -> FleetView:
+    def reported_view(self, view: FleetView) -> FleetView:
         """What the dispatcher is told: of silent robots what it was told last."""
         last, self.last_view = self.last_view, view
         if last is not None and self.active and self.silent.any():

@@ -21,8 +21,8 @@ class Gait:
         self._radius = np.array([member.leg_radius or member.radius for member in members], float)
         self._phase = np.arange(len(members)) * (np.sqrt(5) - 1) / 2 % 1  # people do not walk in step
 
-    def seen(self, movers: Movers, dt: float) -> Float:
-        """Return the legs f8[m,5] as `Inputs.seen` holds them, `dt` seconds later; others are seen as their bodies."""
+    def legs(self, movers: Movers, dt: float) -> Float:
+        """Return the legs f8[m,5] as `Inputs.legs` holds them, `dt` seconds later; others are seen as their bodies."""
         yaw = movers.pose[:, 2]
         ahead = np.column_stack([np.cos(yaw), np.sin(yaw)])
         left = np.column_stack([-ahead[:, 1], ahead[:, 0]])

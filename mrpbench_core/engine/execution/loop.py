@@ -129,14 +129,14 @@ class ExecutionLoop(ControlLoop):
             level=self._state.level,
             mode=self._motion.mode,
         )
-        view = self._facility_manager.with_grants(self._inputs.faults.heard(view), self._state)
+        view = self._facility_manager.with_grants(self._inputs.faults.reported_view(view), self._state)
         if replanner.pending is None:
             self._ask_dispatcher(view)
             self._replan(view)
         if (revision := replanner.take_due(now)) and self._adopt(revision):
             reached, cleared = self._motion.reached, self._motion.cleared
             now_counted = attrs.evolve(view, revision=self._revision, reached=reached, cleared=cleared)
-            view = self._inputs.faults.heard(now_counted)
+            view = self._inputs.faults.reported_view(now_counted)
             self._ask_dispatcher(view)
         self._facility_manager.assign(now, self._orders.requests)
 
@@ -187,7 +187,9 @@ class ExecutionLoop(ControlLoop):
                 self._inputs.faults.cut(new.cut)
                 self._facility_manager.adopt(new.problem, new.plan)
                 self._inputs.recorder.events((Event(stamp=now, kind="replan", detail=new.reason),))
-                self._inputs.recorder.routes(now, self._revision, new.routes, new.plan, new.kept, self._driven.count)
+                self._inputs.recorder.routes(
+                    now, self._revision, new.routes, new.plan, new.unchanged, self._driven.count
+                )
                 if self._inputs.tasks is not None:
                     self._visits.lead_to(new.problem.goals, self._inputs.tasks.adopt(new.destinations))
                 self._visits.follow(new.problem, new.plan)

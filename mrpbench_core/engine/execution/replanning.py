@@ -43,7 +43,7 @@ class Revision:
     """bool[n]: the path ends at a goal of its robot, not at the end of the window."""
     cut: Int32
     """i4[n] leading segments of the plan before that are left out."""
-    kept: Int32
+    unchanged: Int32
     """i4[n] leading waypoints of its routes that are those of the routes before."""
     destinations: Destinations
     """Where it leads."""
@@ -167,7 +167,7 @@ class Replanner:
             fault=fault or "",
             leads=leads,
             cut=cut,
-            kept=np.zeros_like(cut) if router.plan_filter != "none" else view.reached - cut,
+            unchanged=np.zeros_like(cut) if router.plan_filter != "none" else view.reached - cut,
             destinations=to,
         )
 

@@ -75,7 +75,7 @@ class SingleSession:
             mode=motion.mode,
             granted=self.resources.ready,
         )
-        returned = self._session.update(now, self._faults.heard(view))
+        returned = self._session.update(now, self._faults.reported_view(view))
         if returned is not self._returned:  # orders cannot be changed, so these are checked once
             self._returned, self.orders = returned, self._checks.orders(returned)
             members = [

@@ -16,7 +16,7 @@ from mrpbench_core.engine.processes.channel import Channel, ClosedError, Garbled
 from mrpbench_core.engine.processes.child import ENDING_S
 from mrpbench_core.engine.processes.limits import IMPORT_S
 from mrpbench_core.plugins.hooks import DISABLE, LOG, Hooks, enabled_hooks
-from mrpbench_core.plugins.importing import told
+from mrpbench_core.plugins.importing import attributed_to
 from mrpbench_core.plugins.installed import Provider
 
 CLOSING_S = 5.0
@@ -54,7 +54,7 @@ def observers() -> list[dict[str, Any]]:
     providers = []
     for provider in enabled_hooks():
         hooks = Hooks()
-        with told(f"{provider.kind} {provider.name!r} of {provider.origin}"):
+        with attributed_to(f"{provider.kind} {provider.name!r} of {provider.origin}"):
             hooks.load(provider)
             hooks.check()
         if any(map(hooks.has, OBSERVED)):

@@ -67,7 +67,7 @@ class MoverDiscs:
         self.level: Int16 = np.zeros(len(radii), np.int16)
         self.body = self.place
         """f8[m,2] centres of what touches; infinite until the first inputs place them."""
-        self.seen, self.seen_radius = self.body, radii
+        self.scan_discs, self.scan_radius = self.body, radii
         """f8[k,2], f8[k]: what lidars see."""
 
     def update(self, inputs: Inputs) -> None:
@@ -78,10 +78,10 @@ class MoverDiscs:
             self.level = inputs.mover_level
         self.place, level = inputs.movers[:, :2], self.level
         self.body = self._layout.to_plane(self.place, level)
-        self.seen, self.seen_radius = self.body, self._radii
-        if inputs.seen is not None:
-            self.seen = self._layout.to_plane(inputs.seen[:, :4].reshape(-1, 2), np.repeat(level, 2))
-            self.seen_radius = np.repeat(inputs.seen[:, 4], 2)
+        self.scan_discs, self.scan_radius = self.body, self._radii
+        if inputs.legs is not None:
+            self.scan_discs = self._layout.to_plane(inputs.legs[:, :4].reshape(-1, 2), np.repeat(level, 2))
+            self.scan_radius = np.repeat(inputs.legs[:, 4], 2)
 
     def among(self, pose: Float, level: Int16, radius: Float) -> tuple[Float, Int16, Float]:
         """Robots and movers together, for doors, which stop before both: places f8[k,2], levels i2[k], radii f8[k]."""

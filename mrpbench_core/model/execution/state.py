@@ -19,7 +19,7 @@ class Inputs:
     place means that it is absent."""
     mover_level: Int16 | None = None
     """i2[m]; None = all stay on the level on which they were, at first level 0."""
-    seen: Float | None = None
+    legs: Float | None = None
     """f8[m,5]: x, y, x, y of two discs as which lidars see each mover (its legs), and their radius; None = the bodies
     of the movers."""
     facilities: Mapping[str, float] = attrs.field(factory=dict)

@@ -46,7 +46,7 @@ class Type2Edges(NamedTuple):
     completed: Bool
     """True: until `before` has ended. False: until its robot has cleared the vertex that `before` starts at."""
 
-    def kept(self, which: Bool) -> "Type2Edges":
+    def subset(self, which: Bool) -> "Type2Edges":
         """Those of `which` bool[k]."""
         return Type2Edges(self.before[which], self.after[which], self.completed[which])
 
@@ -70,7 +70,7 @@ def type2_edges(problem: Problem, moves: Moves, resources: Type2Edges, chosen: B
     if Feature.FOOTPRINTS in problem.features:
         columns += _between_footprints(problem, moves)
     edges = Type2Edges(*(np.concatenate(parts) for parts in zip(*columns, strict=True)))
-    return without_implied(moves, edges if chosen is None else edges.kept(chosen[edges.before]))
+    return without_implied(moves, edges if chosen is None else edges.subset(chosen[edges.before]))
 
 
 def _at_vertices(problem: Problem, moves: Moves, chosen: Bool | None) -> Type2Edges:

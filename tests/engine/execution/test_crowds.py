@@ -160,7 +160,7 @@ def test_absent_members_are_nowhere_for_the_simulator(tmp_path):
     crowds = start(Scripted(file=tmp_path / "tracks.csv"))
     given = crowds.inputs(Inputs(twist=[[0, 0]]))
     assert np.isinf(given.movers[0, :2]).all()
-    assert np.isinf(given.seen[0, :4]).all()
+    assert np.isinf(given.legs[0, :4]).all()
 
 
 HALL = """

@@ -122,11 +122,11 @@ def test_nothing_reaches_or_leaves_a_silent_robot():
         )
 
     state.update(0.0)
-    state.heard(view(1))
+    state.reported_view(view(1))
     assert state.received(np.full(4, 2)).tolist() == [2, 2, 2, 2]
     state.update(1.0)
-    assert state.heard(view(3)).reached.tolist() == [1, 3, 3, 3]
-    assert state.heard(view(4)).pose[:, 0].tolist() == [1, 4, 4, 4]
+    assert state.reported_view(view(3)).reached.tolist() == [1, 3, 3, 3]
+    assert state.reported_view(view(4)).pose[:, 0].tolist() == [1, 4, 4, 4]
     assert state.received(np.full(4, 5)).tolist() == [2, 5, 5, 5]
 
 

@@ -14,7 +14,7 @@ def walk(yaw, speed, steps):
     found = []
     for step in range(1, steps + 1):
         pose = np.tile([*(step * DT * speed * ahead), yaw], (2, 1))
-        found.append(gait.seen(Movers(pose=pose, velocity=np.tile(speed * ahead, (2, 1)), level=[0, 0]), DT))
+        found.append(gait.legs(Movers(pose=pose, velocity=np.tile(speed * ahead, (2, 1)), level=[0, 0]), DT))
     return np.array(found)
 
 

@@ -21,7 +21,7 @@ def test_edges_from_chosen_moves_are_those_of_all_moves(seed):
     every = type2_edges(problem, moves, resources)
     found = set(zip(*type2_edges(problem, moves, resources, chosen), strict=True))
     assert all(chosen[before] for before, _, _ in found)
-    assert set(zip(*every.kept(chosen[every.before]), strict=True)) <= found
+    assert set(zip(*every.subset(chosen[every.before]), strict=True)) <= found
     for before, after, completed in found:
         implies = every.completed >= completed
         for ends, ours, comes_first in ((every.before, before, False), (every.after, after, True)):

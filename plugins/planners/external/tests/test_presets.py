@@ -160,4 +160,4 @@ def test_what_is_promised_is_checked(program):
     lenient = attrs.evolve(planner, promised=())
     assert judge_plan(Promises.of(lenient), crossing, result)[1] is None
     strict = Promises.of(attrs.evolve(planner, promised=(Promise.CONFLICT_FREE, Promise.BOUNDED), w=1.5))
-    assert (strict.kept, strict.factor) == ({Promise.CONFLICT_FREE, Promise.BOUNDED}, 1.5)
+    assert (strict.made, strict.factor) == ({Promise.CONFLICT_FREE, Promise.BOUNDED}, 1.5)

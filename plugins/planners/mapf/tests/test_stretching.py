@@ -84,7 +84,7 @@ def test_planners_add_as_many_waits_as_p_needs(planner):
     # The first robot needs two ticks until it leaves the middle: P(late by more than 0, 1, ...) = 0.19, 0.028, ...
     assert costs == [5, 5, 6, 7, 9]
     assert math.isnan(result.lower_bound)
-    assert not Promises.of(planner(p=0.5)).kept & {"optimal", "bounded", "complete"}
+    assert not Promises.of(planner(p=0.5)).made & {"optimal", "bounded", "complete"}
 
 
 def test_waits_do_not_help_robots_that_rotate():

@@ -131,7 +131,7 @@ class BodySimulation(Simulation):
     def scan(self, lidar: Lidar, robots: Sequence[int]) -> Float:
         """Ranges f8[k,beams] of `robots` now; inf = no return."""
         discs = self._discs
-        return self._casters.scan(lidar, robots, self._plane, discs.seen, discs.seen_radius, self._outlines)
+        return self._casters.scan(lidar, robots, self._plane, discs.scan_discs, discs.scan_radius, self._outlines)
 
     def close(self) -> None:
         """Close the physics world."""

@@ -127,9 +127,9 @@ class PlanarSimulation(Simulation):
             return ()
         stamp = self._periods * self._period
         batches = []
-        radius, discs = self._robot_radius, np.ascontiguousarray(self._movers.seen)
+        radius, discs = self._robot_radius, np.ascontiguousarray(self._movers.scan_discs)
         if len(discs):
-            radius = np.concatenate([radius, self._movers.seen_radius])
+            radius = np.concatenate([radius, self._movers.scan_radius])
         for lidar, robots in due:
             scanning = np.array(robots, np.int32)
             ranges = self._casters[lidar].scan(scanning, self._pose, discs, radius, self._leaves)

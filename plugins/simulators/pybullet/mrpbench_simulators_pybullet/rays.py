@@ -70,13 +70,13 @@ class RayTests:
 
     def _place_movers(self, movers: MoverDiscs) -> None:
         """Put the discs of movers where lidars see them; their radii change at most once, when they get legs."""
-        if not np.array_equal(movers.seen_radius, self._mover_radius):
+        if not np.array_equal(movers.scan_radius, self._mover_radius):
             for disc in self._movers:
                 self._bullet.removeBody(disc)
-            self._mover_radius = movers.seen_radius
-            discs = (polygon_outline(radius * _CIRCLE) for radius in movers.seen_radius.tolist())
+            self._mover_radius = movers.scan_radius
+            discs = (polygon_outline(radius * _CIRCLE) for radius in movers.scan_radius.tolist())
             self._movers = [body for sides in discs if (body := self._silhouette(sides)) is not None]
-        for body, (x, y) in zip(self._movers, movers.seen.tolist(), strict=True):
+        for body, (x, y) in zip(self._movers, movers.scan_discs.tolist(), strict=True):
             if np.isfinite(x):
                 self._place(body, np.array([x, y, 0.0]))
             else:
