@@ -17,6 +17,11 @@ from mrpbench_core.store.recording import Recording, RecordingWriter
 SAMPLES = 41
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _kept(kept_workers):
+    """Commands of a module share their worker processes."""
+
+
 @pytest.fixture
 def chunk():
     """4 s at 10 Hz: robot 0 waits 2 s, then drives one cell; robot 1 drives one cell, turning through ±pi."""

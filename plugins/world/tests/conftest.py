@@ -11,6 +11,11 @@ from mrpbench_core.store.recording import Recording, RecordingWriter
 SAMPLES = 21
 
 
+@pytest.fixture(scope="module", autouse=True)
+def _kept(kept_workers):
+    """Commands of a module share their worker processes."""
+
+
 @pytest.fixture
 def room():
     """A room of 4 × 3 m with an L-shaped shelf, a hinged and a sliding door."""
