@@ -2,7 +2,8 @@
 
 `make wheels` runs this. Distributions are built twice, in isolation, the wheel from the sdist, and must be equal byte
 for byte. Then only the wheels are installed into an empty environment of each Python that is found, and a first study
-is written, run and reported there, outside of the checkout.
+is written, run and reported there, outside of the checkout. Then a plugin of each kind is written there, installed from
+its folder as its README says, and its tests run.
 """
 
 import argparse
@@ -113,6 +114,13 @@ def drive(interpreter: str, out: Path, folder: Path) -> dict[str, float]:
     if "succeeded" not in done.stdout or not (work / "results/first/report.html").is_file():
         sys.exit(f"the report says nothing of runs that succeeded:\n{done.stdout}")
     finished = time.monotonic()
+    facts = sizes(folder) | {"install s": installed - before, "first study and report s": finished - installed}
+    facts["plugins from templates"] = write_plugins(bin_folder, out, work, environment)
+    return facts
+
+
+def sizes(folder: Path) -> dict[str, float]:
+    """Count what is installed."""
     (site,) = (folder / "env/lib").glob("python3*/site-packages")
     tools = ("pip", "setuptools", "pkg_resources", "_distutils", "distutils")  # what venv puts there
     ours = [path for path in site.iterdir() if not path.name.startswith(tools)]
@@ -121,9 +129,27 @@ def drive(interpreter: str, out: Path, folder: Path) -> dict[str, float]:
         "distributions": sum(path.suffix == ".dist-info" for path in ours),
         "MB": sum(file.stat().st_size for file in files if file.suffix != ".pyc") / 1e6,
         "MB with bytecode": sum(file.stat().st_size for file in files) / 1e6,
-        "install s": installed - before,
-        "first study and report s": finished - installed,
     }
+
+
+def write_plugins(bin_folder: Path, out: Path, work: Path, environment: dict[str, str]) -> int:
+    """Write a plugin of each kind and form, install it, and run its tests; return their number."""
+    kinds = "from mrpbench_scaffold.kinds import kinds; print(*kinds())"
+    words = subprocess.run([bin_folder / "python", "-c", kinds], capture_output=True, text=True, check=True)
+    forms = [(kind, ()) for kind in words.stdout.split()] + [("planner", ("--native",)), ("planner", ("--external",))]
+    environment = environment | {"PATH": f"{bin_folder}{os.pathsep}{environment['PATH']}"}
+    install = [str(bin_folder / "python"), "-m", "pip", "install", "--quiet", f"--find-links={out}"]
+    for kind, options in forms:
+        name = "_".join(["own", kind, *(option.removeprefix("--") for option in options)])
+        for command in (
+            [str(bin_folder / "mrpbench"), "new-plugin", kind, name, "--folder", name, *options],
+            [*install, f"./{name}", "pytest"],
+            [str(bin_folder / "python"), "-m", "pytest", "-q", f"{name}/tests"],
+        ):
+            done = subprocess.run(command, cwd=work, env=environment, capture_output=True, text=True)
+            if done.returncode:
+                sys.exit(f"{' '.join(command)}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+    return len(forms)
 
 
 def main() -> None:
