@@ -61,7 +61,10 @@ def fate_of(block: Mapping[str, Any], name: str, value: Any) -> str:
     module, _, attribute = block["component"].partition(":")
     component = getattr(importlib.import_module(module), attribute)
     key = ".".join(filter(None, (block.get("at"), name)))
-    nodes: dict[str, Any] = {block["node"]: {PARAMETERS: block["base"] | {key: value}}}
+    parameters = {PARAMETERS: block["base"] | {key: value}}
+    nodes: dict[str, Any] = {
+        block["node"]: {block["node"]: parameters} if block["node"].endswith("_costmap") else parameters
+    }
     if block["node"] != "amcl":
         nodes.setdefault("controller_server", {PARAMETERS: {"FollowPath": {"max_vel_x": 0.2}}})
     options = {"primary_controller": _other()} if attribute == "RotationShim" else {}

@@ -75,8 +75,12 @@ class Nav2File:
         spaces = self.namespaces(name)
         space = spaces[0] if len(spaces) == 1 else namespace
         names = (*filter(None, space.split("/")), name)
-        paths = [names, (*names, name)] if name.endswith("_costmap") else [names]
-        matching = [entry for entry in self._entries if any(entry.matches(*path) for path in paths)]
+        if name.endswith("_costmap"):  # its node is in a namespace of its own
+            flat = [entry for entry in self._entries if entry.path == names]
+            names = (*names, name)
+            if flat and not any(entry.path == names for entry in self._entries):
+                raise self.document.error(f"is of no node: the costmap is {'/'.join(names)!r}", flat[0].steps)
+        matching = [entry for entry in self._entries if entry.matches(*names)]
         block = Nav2Block(name, {}, self.document)
         for entry in matching:
             block.add(entry.parameters, entry.steps, shared=entry.path[-1] in ("*", "**"))

@@ -42,9 +42,16 @@ def test_a_node_is_found_by_its_name_in_its_namespace_or_by_a_pattern(load, path
     assert values(load(path).node("amcl")) == {"a": 1}
 
 
-@pytest.mark.parametrize("path", ["local_costmap: {local_costmap: ", "local_costmap: ", "a/local_costmap: ", "/**: "])
+@pytest.mark.parametrize("path", ["local_costmap: {local_costmap: ", "a: {local_costmap/local_costmap: ", "/**: "])
 def test_the_node_of_a_costmap_has_a_namespace_of_its_own_name(load, path):
     assert values(load(f"{path}{{ros__parameters: {{a: 1}}}}{'}' * path.count('{')}").node("local_costmap")) == {"a": 1}
+
+
+@pytest.mark.parametrize(("path", "node"), [("local_costmap: ", ""), ("a: {local_costmap: ", "a/")])
+def test_parameters_in_the_namespace_of_a_costmap_are_of_no_node(load, path, node):
+    file = load(f"{path}{{ros__parameters: {{a: 1}}}}{'}' * path.count('{')}")
+    with pytest.raises(InputError, match=f":1:.*is of no node: the costmap is '{node}local_costmap/local_costmap'"):
+        file.node("local_costmap")
 
 
 def test_all_entries_that_match_hold_and_later_ones_win(load):
