@@ -35,14 +35,15 @@ optima: install ## check all 636 published optima with every planner that promis
 	for planner in $(OPTIMA); do $(BIN)/python plugins/planners/mapf/tests/soak_optima.py --shared ../shared/data --planner "$$planner" $(ARGS) || exit 1; done
 
 DEMO := $(if $(wildcard $(STAMP)),$(VENV),build/demo)
-demo: ## compare three planners with bodies and lidar, end to end: answer, table, replay, picture, bag; installs only what that needs, unless .venv is there
+demo: ## compare three planners, and one in a folder of its own, with bodies and lidar, end to end: answer, table, replay, picture, bag; installs only what that needs, unless .venv is there
 ifdef UV
 	test -e $(STAMP) || UV_PROJECT_ENVIRONMENT=$(DEMO) UV_PYTHON_DOWNLOADS=never uv sync --quiet --locked --no-default-groups --group demo --python $(PYTHON)
 else
 	test -x $(DEMO)/bin/python || $(PYTHON) -m venv $(DEMO)
 	test -e $(STAMP) || $(DEMO)/bin/python -m pip install --quiet --disable-pip-version-check --constraint pinned.txt '.[figures,statistics]' ./native ./plugins ./plugins/replay ./plugins/scaffold ./plugins/world ./plugins/exporters/rosbag2 ./plugins/simulators/mujoco
 endif
-	$(DEMO)/bin/mrpbench demo
+	$(if $(UV),$(UV) pip install --python $(DEMO)/bin/python,$(DEMO)/bin/python -m pip install --disable-pip-version-check --upgrade) --quiet --no-deps --target build/example ./examples/acme-planner
+	PYTHONPATH=build/example $(DEMO)/bin/mrpbench demo
 
 test: install lint types layers docs cpp python ## run all checks of CI
 

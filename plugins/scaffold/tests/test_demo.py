@@ -3,6 +3,7 @@
 import json
 from pathlib import Path
 
+import attrs
 from mrpbench_scaffold.commands import demo
 
 from mrpbench_core.plugins.installed import providers
@@ -12,7 +13,7 @@ from mrpbench_core.plugins.kinds import GROUPS
 def test_the_whole_stack_answers_a_question_and_leaves_something_to_see(mrpbench, monkeypatch):
     monkeypatch.setitem(demo.WANTED, "simulator", ("holodeck", "planar"))
     monkeypatch.setattr(demo, "ROBOTS", 5)
-    monkeypatch.setattr(demo, "SEEDS", 1)
+    monkeypatch.setattr(demo, "RUNS", 3)
     code, output, errors = mrpbench("demo")
     assert (code, errors) == (0, "")
     assert "simulator holodeck is not available here (not installed); the demo uses planar" in output
@@ -34,6 +35,14 @@ def test_the_whole_stack_answers_a_question_and_leaves_something_to_see(mrpbench
     code, _, errors = mrpbench("export", "results/demo:zz", "--to", "rosbag2")
     assert code == 2
     assert errors.startswith("results/demo:zz: no runs begin with 'zz'")
+
+
+def test_planners_of_other_projects_are_compared(monkeypatch):
+    assert demo.others() == []
+    installed = providers("mrpbench.planners")
+    acme = attrs.evolve(installed[0], name="acme", distribution="acme-planner")
+    monkeypatch.setattr(demo, "providers", lambda group: (*installed, acme))
+    assert demo.others() == ["acme"]
 
 
 def test_the_core_alone_says_what_to_install(mrpbench, monkeypatch):

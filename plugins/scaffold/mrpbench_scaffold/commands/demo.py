@@ -20,7 +20,7 @@ from mrpbench_core.files.extras import has
 from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.plugins.installed import providers
 from mrpbench_core.plugins.kinds import group_of
-from mrpbench_core.plugins.published import remedy
+from mrpbench_core.plugins.published import PUBLISHED, remedy
 from mrpbench_core.report.html.page import write_report
 from mrpbench_core.report.report import make_report
 from mrpbench_core.store.recording import Recording
@@ -34,10 +34,12 @@ WANTED = {
 }
 """Plugins of each kind in order of preference: the demo uses the first that works here."""
 COMPARED = ("astar", "cbs", "eecbs")
-"""The planners that are compared, if all are installed: the first plans for each robot as if there were no others."""
+"""The planners that are compared, if all are installed: the first plans for each robot as if there were no others.
+Planners of other projects are compared with them.
+"""
 LIBRARIES = {"pybullet": "pybullet", "mujoco": "mujoco"}
 """Modules without which a plugin does not work, although it is installed."""
-ROBOTS, SEEDS, WORKERS, BAG = 12, 14, 4, "rosbag2"
+ROBOTS, RUNS, WORKERS, BAG = 12, 42, 4, "rosbag2"
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -73,7 +75,8 @@ def _configuration() -> dict[str, Any]:
         chosen[kind] = working[0]
         if chosen[kind] != names[0]:
             print(f"{kind} {names[0]} is not available here ({_why(kind, names[0])}); the demo uses {chosen[kind]}")
-    compared = list(COMPARED) if all(_works("planner", name) for name in COMPARED) else [chosen["planner"]]
+    own = list(COMPARED) if all(_works("planner", name) for name in COMPARED) else [chosen["planner"]]
+    compared = own + others()
     return {
         "name": "demo",
         "world": "office",
@@ -83,8 +86,14 @@ def _configuration() -> dict[str, Any]:
         "dispatcher": "all_at_once",
         "recording": {"scans": True},
         "limits": {"planning": 20.0, "execution": 150.0},
-        "matrix": {"planner": compared, "seed": list(range(SEEDS))},
+        "matrix": {"planner": compared, "seed": list(range(RUNS // len(compared)))},
     }
+
+
+def others() -> list[str]:
+    """Return the names of planners in distributions of other projects."""
+    ours = {"mrpbench-core", *PUBLISHED}
+    return [it.name for it in providers(group_of("planner")) if not it.problem and it.distribution not in ours]
 
 
 def _works(kind: str, name: str) -> bool:
