@@ -7,7 +7,7 @@ from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.drive.execute import TimedExecution
 from mrpbench_core.engine.execution.control_loop import ControlLoop, ExecutionResult
 from mrpbench_core.engine.execution.crowds import Crowds
-from mrpbench_core.engine.execution.draws import Draws
+from mrpbench_core.engine.execution.draws import DelayDraws
 from mrpbench_core.engine.execution.faults import FaultState, draw_faults
 from mrpbench_core.engine.execution.recorder import Recorder
 from mrpbench_core.engine.execution.worst_case import Adversary
@@ -56,14 +56,14 @@ class PlannedExecution(TimedExecution):
             recorder.events([Event(stamp=result.simulated_s, kind="not_arrived", robot=robot, detail=reason)])
         return result
 
-    def _draws(self) -> Draws:
+    def _draws(self) -> DelayDraws:
         """The delays of the run, and of its further draws."""
         config, context = self._inputs.config, self.context
         settings, plan = config.delays, context.result.plan
         assert plan is not None
         attack = settings.worst_case * settings.tick
         adversary = Adversary(context.problem, plan, attack) if attack else None
-        return Draws(settings, len(context.fleet), Seeds(config.seed, config.repeat), adversary)
+        return DelayDraws(settings, len(context.fleet), Seeds(config.seed, config.repeat), adversary)
 
 
 def _faults(config: RunConfig, context: RunContext) -> FaultState:

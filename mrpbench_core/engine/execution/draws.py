@@ -15,7 +15,7 @@ _AT_ONCE = 1 << 14
 """Robots of all executions at once; with more of them, an execution takes no less time (`benchmarks/draws.py`)."""
 
 
-class Draws:
+class DelayDraws:
     """The draws of the delays of a run; the same adversary attacks in all of them.
 
     Args:

@@ -6,7 +6,7 @@ from html import escape
 from mrpbench_core.report.answer.amounts import reading
 from mrpbench_core.report.answer.answer import Answer, SettingAnswer, TopicAnswer
 from mrpbench_core.report.html.cells import breakable, prose
-from mrpbench_core.report.html.ranking import draw_ranking
+from mrpbench_core.report.html.ranking import plot_ranking
 
 OPEN = 12
 """Settings whose questions are drawn; of more, only their first sentences are listed."""
@@ -72,5 +72,5 @@ def _card(topic: TopicAnswer) -> str:
     note = f"<code>{breakable(column.name)}</code>: {prose(column.description)}. {escape(reading(topic.ranking))}"
     return (
         f'<article class="card"><h3>{escape(topic.title)}</h3><p class="says">{says}</p>'
-        f'{draw_ranking(topic.ranking)}{rest}<p class="note">{note}</p></article>'
+        f'{plot_ranking(topic.ranking)}{rest}<p class="note">{note}</p></article>'
     )

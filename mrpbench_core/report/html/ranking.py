@@ -1,4 +1,4 @@
-"""Draws a ranking: one row per configuration, with its mean, its interval and what is known of it."""
+"""Plots a ranking: one row per configuration, with its mean, its interval and what is known of it."""
 
 from html import escape
 
@@ -24,7 +24,7 @@ _TAGS = {
 }
 
 
-def draw_ranking(ranking: Ranking) -> str:
+def plot_ranking(ranking: Ranking) -> str:
     """Return a table with a drawing in each row. The band holds the differences to the first that do not matter."""
     shown = ranking.places[:SHOWN]
     first = ranking.places[0].estimate

@@ -12,7 +12,7 @@ from mrpbench_core.model.worlds.world import Door, Level, World
 from mrpbench_core.report.pictures.style import LANE, LIFT, ROAD, WALL
 
 
-def draw_cells(axes: Any, roadmap: Roadmap) -> None:
+def plot_cells(axes: Any, roadmap: Roadmap) -> None:
     """Tint the cells of the roadmap's raster."""
     if roadmap.grid is None:
         return
@@ -32,7 +32,7 @@ def draw_cells(axes: Any, roadmap: Roadmap) -> None:
     )
 
 
-def draw_solids(axes: Any, level: Level) -> None:
+def plot_solids(axes: Any, level: Level) -> None:
     """Draw blocked cells, walls, obstacles and holes."""
     from matplotlib.collections import PolyCollection
     from matplotlib.colors import ListedColormap
@@ -57,7 +57,7 @@ def draw_solids(axes: Any, level: Level) -> None:
     axes.add_collection(PolyCollection(holes, facecolor="none", edgecolor=WALL, hatch="xxx", linewidth=0.6, zorder=2))
 
 
-def draw_doors(axes: Any, doors: Sequence[Door], colour: str, *, shut: bool) -> None:
+def plot_doors(axes: Any, doors: Sequence[Door], colour: str, *, shut: bool) -> None:
     """Draw the leaves of doors: shut if `shut`, and thin where they are when open; tint what hinged leaves sweep."""
     from matplotlib.collections import LineCollection, PolyCollection
 
@@ -68,7 +68,7 @@ def draw_doors(axes: Any, doors: Sequence[Door], colour: str, *, shut: bool) -> 
         axes.add_collection(LineCollection(lines, colors=colour, linewidths=width, capstyle="butt", zorder=3))
 
 
-def draw_cabins(axes: Any, world: World, level: int) -> None:
+def plot_cabins(axes: Any, world: World, level: int) -> None:
     """Draw the cabins of lifts that stop at the level."""
     from matplotlib.collections import PolyCollection
 
@@ -86,7 +86,7 @@ def lift_doors(world: World, level: int) -> list[Door]:
     ]
 
 
-def draw_lanes(axes: Any, world: World, level: int) -> None:
+def plot_lanes(axes: Any, world: World, level: int) -> None:
     """Draw lanes, with an arrow on those of one direction, and vertices."""
     from matplotlib.collections import LineCollection
 

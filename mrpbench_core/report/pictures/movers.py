@@ -19,7 +19,7 @@ def read_movers(recording: Recording, level: int) -> Float:
     return np.where(here[..., None], recording.channel("mover")[..., :3], np.nan)
 
 
-def draw_movers(axes: Any, bodies: Sequence[Mover], poses: Float) -> None:
+def plot_movers(axes: Any, bodies: Sequence[Mover], poses: Float) -> None:
     """Draw where people and other movers went, poses f8[T,m,3], NaN elsewhere, and their bodies where they end."""
     from matplotlib.collections import LineCollection, PatchCollection
     from matplotlib.patches import Circle

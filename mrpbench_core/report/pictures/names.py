@@ -13,7 +13,7 @@ DOT = 3
 """Pixels around a place that no name covers."""
 
 
-def draw_names(figure: Any, axes: Any, named: dict[tuple[float, float], str], places: Float, *, faint: bool) -> None:
+def plot_names(figure: Any, axes: Any, named: dict[tuple[float, float], str], places: Float, *, faint: bool) -> None:
     """Write each name above, below, right or left of its place; leave out a name that fits nowhere.
 
     Args:

@@ -17,7 +17,7 @@ def on_level(route: Route, level: int) -> Float:
     return there
 
 
-def draw_paths(
+def plot_paths(
     axes: Any,
     fleet: Fleet | None,
     routes: Sequence[Float],

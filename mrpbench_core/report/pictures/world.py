@@ -1,4 +1,4 @@
-"""Draws a level of a world, with the paths that robots planned and drove there."""
+"""Plots a level of a world, with the paths that robots planned and drove there."""
 
 from collections.abc import Sequence
 from pathlib import Path
@@ -14,21 +14,21 @@ from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.worlds.world import World
 from mrpbench_core.report.pictures.level import (
-    draw_cabins,
-    draw_cells,
-    draw_doors,
-    draw_lanes,
-    draw_solids,
     lift_doors,
+    plot_cabins,
+    plot_cells,
+    plot_doors,
+    plot_lanes,
+    plot_solids,
 )
-from mrpbench_core.report.pictures.movers import draw_movers
-from mrpbench_core.report.pictures.names import draw_names
-from mrpbench_core.report.pictures.paths import draw_paths, on_level
+from mrpbench_core.report.pictures.movers import plot_movers
+from mrpbench_core.report.pictures.names import plot_names
+from mrpbench_core.report.pictures.paths import on_level, plot_paths
 from mrpbench_core.report.pictures.sheet import bounds, layout, set_axes
 from mrpbench_core.report.pictures.style import DOOR, DPI, LIFT, PIXELS, own_style
 
 
-def draw_world(
+def plot_world(
     world: World,
     *,
     file: Path,
@@ -65,9 +65,9 @@ def draw_world(
         figure, axes = world_figure(world, roadmap=roadmap, truth=truth, level=level, faint=moving)
         if moving:
             shown = [on_level(route, level) for route in routes or ()]
-            draw_paths(axes, fleet, shown, truth, planned, goals, people=bool(bodies))
+            plot_paths(axes, fleet, shown, truth, planned, goals, people=bool(bodies))
         if movers is not None:
-            draw_movers(axes, bodies, movers)
+            plot_movers(axes, bodies, movers)
         try:
             figure.savefig(file, format="png")
         except OSError as error:
@@ -107,14 +107,14 @@ def world_figure(
         axes = figure.add_axes(frame)
         set_axes(axes, _title(world, level), low, high)
         if roadmap is not None and level in roadmap.level:
-            draw_cells(axes, roadmap)
-        draw_solids(axes, world.levels[level])
-        draw_cabins(axes, world, level)
-        draw_doors(axes, world.levels[level].doors, DOOR, shut=shut)
-        draw_doors(axes, lift_doors(world, level), LIFT, shut=shut)
-        draw_lanes(axes, world, level)
+            plot_cells(axes, roadmap)
+        plot_solids(axes, world.levels[level])
+        plot_cabins(axes, world, level)
+        plot_doors(axes, world.levels[level].doors, DOOR, shut=shut)
+        plot_doors(axes, lift_doors(world, level), LIFT, shut=shut)
+        plot_lanes(axes, world, level)
         places = np.array([(v.x, v.y) for v in world.vertices if v.level == level]).reshape(-1, 2)
-        draw_names(figure, axes, _labels(world, level), places, faint=faint)
+        plot_names(figure, axes, _labels(world, level), places, faint=faint)
     return figure, axes
 
 

@@ -8,7 +8,7 @@ from mrpbench_core.model.execution.movers import Mover
 from mrpbench_core.report.pictures.movers import read_movers
 from mrpbench_core.report.pictures.style import COLOURS, PERSON
 from mrpbench_core.report.pictures.thumbnail import run_thumbnail
-from mrpbench_core.report.pictures.world import draw_world
+from mrpbench_core.report.pictures.world import plot_world
 
 pytest.importorskip("matplotlib")
 images = pytest.importorskip("PIL.Image")
@@ -55,7 +55,7 @@ def test_people_are_in_gifs_pictures_and_thumbnails(store, chunk, tmp_path, run_
             movie.seek(movie.n_frames - 1)
             drawn.append(count(movie, PERSON).sum())
         around, poses = shown.context(), read_movers(shown, 0)
-        draw_world(around.world, bodies=around.movers, movers=poses, truth=chunk["truth"], file=tmp_path / "a.png")
+        plot_world(around.world, bodies=around.movers, movers=poses, truth=chunk["truth"], file=tmp_path / "a.png")
         with images.open(tmp_path / "a.png") as picture:
             drawn.append(count(picture, PERSON).sum())
         drawn.append(run_thumbnail(shown).count('<polyline class="mover" points="'))

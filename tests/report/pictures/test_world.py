@@ -11,9 +11,9 @@ from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.worlds.occupancy import Occupancy
 from mrpbench_core.model.worlds.world import Door, Lane, Level, Obstacle, Vertex, World
-from mrpbench_core.report.pictures.paths import draw_paths
+from mrpbench_core.report.pictures.paths import plot_paths
 from mrpbench_core.report.pictures.style import PIXELS, own_style
-from mrpbench_core.report.pictures.world import draw_world, world_figure
+from mrpbench_core.report.pictures.world import plot_world, world_figure
 
 pytest.importorskip("matplotlib")
 from matplotlib.text import Text
@@ -37,7 +37,7 @@ def has(image, colour) -> bool:
 def test_a_world_is_1280_pixels_wide_or_high(tmp_path):
     file = tmp_path / "a.png"
     for walls, expected in (([[0, 0, 20, 0], [0, 0, 0, 8]], 0), ([[0, 0, 8, 0], [0, 0, 0, 20]], 1)):
-        draw_world(World(name="w", levels=(Level(name="", walls=walls),)), file=file)
+        plot_world(World(name="w", levels=(Level(name="", walls=walls),)), file=file)
         assert abs(size(file)[expected] - PIXELS) <= 1
         assert size(file)[1 - expected] < PIXELS
 
@@ -49,7 +49,7 @@ def test_a_run_shows_robots_in_their_colours(tmp_path, robot_model):
     routes = [Route(waypoint=points, level=[0, 0], speed=[np.inf]) for points in waypoint]
     truth = np.linspace(*np.array(waypoint).transpose(1, 0, 2), 30)
     file = tmp_path / "run.png"
-    draw_world(world, roadmap=Lanes().build(world, fleet), fleet=fleet, routes=routes, truth=truth, file=file)
+    plot_world(world, roadmap=Lanes().build(world, fleet), fleet=fleet, routes=routes, truth=truth, file=file)
     image = pixels(file)
     assert has(image, "#332288")
     assert has(image, "#44aa99")
@@ -62,7 +62,7 @@ def test_title_and_legend_of_a_narrow_world_are_on_the_sheet_and_do_not_overlap(
     truth = np.array([[[1, 1, 0]], [[1, 19, 0]]], float)
     with own_style():
         figure, axes = world_figure(world, truth=truth)
-        draw_paths(axes, None, [truth[:, 0, :2]], truth, people=True)
+        plot_paths(axes, None, [truth[:, 0, :2]], truth, people=True)
     figure.draw_without_rendering()
     title = next(text for text in axes.findobj(Text) if text.get_text().startswith("narrow")).get_window_extent()
     legend = axes.get_legend().get_window_extent()
@@ -79,7 +79,7 @@ def test_planned_or_driven_paths_can_be_drawn_alone(tmp_path, part):
         extra = {"routes": [Route(waypoint=[[1.2, 6, np.nan], [6, 6, np.nan]], level=[0, 0], speed=[1.0])]}
     else:
         extra = {"truth": np.array([[[1.2, 6, 0]], [[6, 6, 0]]])}
-    draw_world(world, file=tmp_path / "a.png", **extra)
+    plot_world(world, file=tmp_path / "a.png", **extra)
     assert has(pixels(tmp_path / "a.png"), "#332288")
 
 
@@ -92,16 +92,16 @@ def test_every_part_of_a_world_can_be_drawn(tmp_path):
     )
     places = (Vertex(name="a", x=1, y=3), Vertex(name="b", x=3, y=1))
     world = World(name="w", levels=(level,), vertices=places, lanes=(Lane(start=0, end=1, bidirectional=False),))
-    draw_world(world, file=tmp_path / "a.png")
+    plot_world(world, file=tmp_path / "a.png")
     image = pixels(tmp_path / "a.png")
     assert has(image, "#3b4252")
     assert has(image, "#b9a68c")
 
 
 def test_an_empty_world_and_a_strip_can_be_drawn(tmp_path):
-    draw_world(World(name="nothing", levels=(Level(name=""),)), file=tmp_path / "a.png")
+    plot_world(World(name="nothing", levels=(Level(name=""),)), file=tmp_path / "a.png")
     strip = World(name="strip", levels=(Level(name="", walls=[[0, 0, 900, 0]]),))
-    draw_world(strip, file=tmp_path / "b.png")
+    plot_world(strip, file=tmp_path / "b.png")
     assert abs(size(tmp_path / "b.png")[0] - PIXELS) <= 1
 
 
@@ -115,9 +115,9 @@ def test_without_matplotlib_the_error_names_the_package_to_install(tmp_path, mon
 
     monkeypatch.setattr(builtins, "__import__", without)
     with pytest.raises(InputError, match=r"mrpbench\[figures\]"):
-        draw_world(World(name="w", levels=(Level(name=""),)), file=tmp_path / "a.png")
+        plot_world(World(name="w", levels=(Level(name=""),)), file=tmp_path / "a.png")
 
 
 def test_a_missing_folder_is_named(tmp_path):
     with pytest.raises(InputError, match="cannot be written"):
-        draw_world(World(name="w", levels=(Level(name=""),)), file=tmp_path / "no" / "a.png")
+        plot_world(World(name="w", levels=(Level(name=""),)), file=tmp_path / "no" / "a.png")

@@ -15,7 +15,7 @@ LASTS = (5.0, 15.0)
 """Seconds for which a person keeps to a detour."""
 AHEAD = 0.6
 """Metres of free space within which a body is in the way."""
-Draws = Callable[[int, int], np.random.Generator]
+Generators = Callable[[int, int], np.random.Generator]
 """The random stream of a person for a number."""
 
 
@@ -33,7 +33,7 @@ class Detours:
         draws: random streams of their own.
     """
 
-    def __init__(self, floor: Floor, radius: float, starts: Float, draws: Draws) -> None:
+    def __init__(self, floor: Floor, radius: float, starts: Float, draws: Generators) -> None:
         self._floor, self._radius, self._draws = floor, radius, draws
         count = len(starts)
         self._anchor, self._origin = starts.copy(), starts.copy()

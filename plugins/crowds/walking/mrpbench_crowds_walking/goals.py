@@ -14,7 +14,7 @@ from mrpbench_crowds_walking.floor import Floor
 
 REACHED = 0.4
 """Metres from a goal, in addition to the radius, at which a person is there."""
-Draws = Callable[[int, int], np.random.Generator]
+Generators = Callable[[int, int], np.random.Generator]
 """The random stream of a person for the goal of a number."""
 
 
@@ -32,7 +32,7 @@ class Goals(ABC):
     arrivals: Int
     """i8[k] number of goals that each has reached, -1 = has none."""
 
-    def __init__(self, group: Int, draws: Draws, reach: float) -> None:
+    def __init__(self, group: Int, draws: Generators, reach: float) -> None:
         self._draws, self._reach = draws, reach
         self._together = [
             np.array([person]) if of < 0 else np.flatnonzero(group == of) for person, of in enumerate(group.tolist())
@@ -58,7 +58,7 @@ class PlaceGoals(Goals):
     def __init__(
         self,
         group: Int,
-        draws: Draws,
+        draws: Generators,
         reach: float,
         following: Callable[[int, int], Float | None],
         starts: Float,
@@ -104,7 +104,7 @@ class ActivityGoals(Goals):
     def __init__(
         self,
         group: Int,
-        draws: Draws,
+        draws: Generators,
         reach: float,
         activities: Sequence[Activity],
         first: Sequence[int],

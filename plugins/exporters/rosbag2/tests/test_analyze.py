@@ -285,7 +285,7 @@ def test_nothing_is_called_planned_where_no_plan_is_known(analyze, foreign, caps
     assert "succeeded" in out
     assert "plans found" not in out
     drawn = []
-    monkeypatch.setattr("mrpbench_core.report.pictures.world.draw_paths", lambda *given, **_: drawn.append(given[4]))
+    monkeypatch.setattr("mrpbench_core.report.pictures.world.plot_paths", lambda *given, **_: drawn.append(given[4]))
     assert main(["view", f"measured:{found['run_id']}", "--png", "it.png"]) == 0
     assert drawn == [False]
     (page,) = tmp_path.glob("measured/replay-*.html")

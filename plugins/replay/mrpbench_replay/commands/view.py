@@ -76,7 +76,7 @@ def _view_pair(arguments: argparse.Namespace) -> int:
 
 def _draw(recording: Recording, file: Path) -> None:
     from mrpbench_core.report.pictures.movers import read_movers
-    from mrpbench_core.report.pictures.world import draw_world
+    from mrpbench_core.report.pictures.world import plot_world
     from mrpbench_replay.motion import read_levels
 
     context = recording.context()
@@ -84,7 +84,7 @@ def _draw(recording: Recording, file: Path) -> None:
     for index, (level, truth) in enumerate(sorted(levels.items())):
         name = file_name(context.world.levels[level].name) or level
         drawn = file.with_name(f"{file.stem}-{name}{file.suffix}") if index else file
-        draw_world(
+        plot_world(
             context.world,
             file=drawn,
             fleet=context.fleet,

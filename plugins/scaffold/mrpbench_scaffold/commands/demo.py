@@ -127,7 +127,7 @@ def _show(results: Results) -> None:
         write_report(make_report([results]), report, {record["run_id"]: replay.name} if writer else {})
         print(f"report     {_near(report)}")
         try:
-            print(f"picture    {_near(_draw(recording, results.folder.path / 'demo.png'))}")
+            print(f"picture    {_near(_plot(recording, results.folder.path / 'demo.png'))}")
         except InputError as error:
             print(f"picture    none: {error}")
         recording.close()
@@ -149,12 +149,12 @@ def answer(records: Sequence[Mapping[str, Any]]) -> str:
     return f"{ROBOTS} robots in the office: {', '.join(parts)}."
 
 
-def _draw(recording: Recording, picture: Path) -> Path:
-    from mrpbench_core.report.pictures.world import draw_world
+def _plot(recording: Recording, picture: Path) -> Path:
+    from mrpbench_core.report.pictures.world import plot_world
 
     context = recording.context()
     truth = recording.channel("truth")
-    draw_world(context.world, file=picture, fleet=context.fleet, routes=context.routes, truth=truth)
+    plot_world(context.world, file=picture, fleet=context.fleet, routes=context.routes, truth=truth)
     return picture
 
 

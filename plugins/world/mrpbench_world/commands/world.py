@@ -96,13 +96,13 @@ def examined(words: dict[str, Any]) -> dict[str, Any]:
     roadmap = _builder(arguments, world).build(world, fleet)
     facts = check_world(world, roadmap, fleet.robots[0].radius)
     if arguments.render is not None:
-        from mrpbench_core.report.pictures.world import draw_world
+        from mrpbench_core.report.pictures.world import plot_world
 
         for index, level in enumerate(world.levels):
             file = Path(arguments.render)
             if index:
                 file = file.with_name(f"{file.stem}-{level.name}{file.suffix}")
-            draw_world(world, roadmap=roadmap, file=file, level=index)
+            plot_world(world, roadmap=roadmap, file=file, level=index)
     if arguments.write is not None:
         write_world(Path(arguments.write), world, roadmap, arguments.cell_size)
     return attrs.asdict(facts)
