@@ -8,7 +8,7 @@ JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/pyproject.toml plugins/*/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: slurm results-site help install explore pages anchors rotations demo test lint types layers cpp python format lock speed policy pogema clean optima live ros soak sanitize worlds fuzz mutants wheels docs links
+.PHONY: paper slurm results-site help install explore pages anchors rotations demo test lint types layers cpp python format lock speed policy pogema clean optima live ros soak sanitize worlds fuzz mutants wheels docs links
 
 help: ## list the targets
 	@grep -hE '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -153,6 +153,14 @@ live: ## drive vehicles of VDA 5050 by vda5050-sdk, 50 orders each, and send 100
 	test -x $(LIVE)/python || $(PYTHON) -m venv build/live
 	$(LIVE)/python -m pip install --quiet pytest pytest-timeout vda5050-sdk aiomqtt -e . ./native -e plugins -e 'plugins/live[vda5050]'
 	MRPBENCH_LIVE_ORDERS=50 MRPBENCH_LIVE_MESSAGES=100000 $(LIVE)/python -m pytest -p no:cacheprovider plugins/live
+
+PAPER := table2 fig5 table4 paper replicability
+paper: install ## repeat the paper's tables in office, warehouse and airport, with bodies (ten hours; what is done is not repeated); ARGS="seed=3000" PAPER=paper for less
+	for study in $(PAPER); do \
+	    case $$study in paper) given=;; replicability) given=simulator=mujoco;; *) given='world=[office,warehouse,airport]';; esac; \
+	    $(BIN)/mrpbench run studies/$$study.yaml --workers $(JOBS) --out results/paper/$$study $$given $(ARGS) || exit 1; \
+	    $(BIN)/mrpbench report results/paper/$$study || exit 1; \
+	done
 
 policy: install ## train the policy that mrpbench-policies ships (25 minutes); ARGS="--instances 50 --rounds 0 --out small.onnx" for less
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python scripts/train_policy.py $(ARGS)

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from mrpbench_core import load
 from mrpbench_core.api.planner import Planner
 from mrpbench_core.cli.main import main
 from mrpbench_core.config.study import load_study
@@ -34,6 +35,7 @@ RUNS_PER_PLANNER = {
     "batches": 80,
     "bodies": 324,
     "policies": 80,
+    "paper": 648,
 }
 """Runs of each planner that is installed."""
 PLANNERS = {
@@ -46,6 +48,7 @@ PLANNERS = {
     "floor": 4,
     "floor_grid": 2,
     "policies": 4,
+    "paper": 6,
 }
 """Planners of a study, or methods of one, if there are several."""
 
@@ -106,6 +109,22 @@ def test_a_study_has_its_runs_and_no_mistakes_but_planners_that_are_not_installe
     assert len(study.errors) == len(refused)
     assert len(found) + len(refused) == PLANNERS.get(name, 1)
     assert study.invalid == len(refused) * RUNS_PER_PLANNER[name]
+
+
+def test_planners_that_assign_are_executed_with_bodies(tmp_path):
+    pytest.importorskip("mujoco")
+    chosen = (
+        "world=office",
+        "limits.execution=300s",
+        "seed=3000",
+        "scenario.robots=5",
+        "planner=cbs_ta",
+        "dispatcher=adg",
+    )
+    assert main(["run", str(FOLDER / "paper.yaml"), *chosen, "planner=cbs_ta", "--out", str(tmp_path)]) == 0
+    (record,) = load(tmp_path)
+    assert record["status"] == "succeeded"
+    assert record["metrics"]["execution.mrp_bench.success"] is True
 
 
 def test_a_study_can_be_listed(tmp_path, monkeypatch, capsys):
