@@ -13,7 +13,7 @@ from mrpbench_core.plugins.kinds import GROUPS
 def test_the_whole_stack_answers_a_question_and_leaves_something_to_see(mrpbench, monkeypatch):
     monkeypatch.setitem(demo.WANTED, "simulator", ("holodeck", "planar"))
     monkeypatch.setattr(demo, "ROBOTS", 5)
-    monkeypatch.setattr(demo, "RUNS", 3)
+    monkeypatch.setattr(demo, "SEEDS", 1)
     code, output, errors = mrpbench("demo")
     assert (code, errors) == (0, "")
     assert "simulator holodeck is not available here (not installed); the demo uses planar" in output
