@@ -35,7 +35,7 @@ optima: install ## check all 636 published optima with every planner that promis
 	for planner in $(OPTIMA); do $(BIN)/python plugins/planners/mapf/tests/soak_optima.py --shared ../shared/data --planner "$$planner" $(ARGS) || exit 1; done
 
 DEMO := $(if $(wildcard $(STAMP)),$(VENV),build/demo)
-demo: ## compare three planners, and one in a folder of its own, with bodies and lidar, end to end: answer, table, replay, picture, bag; installs only what that needs, unless .venv is there
+demo: ## compare three planners, one of them from a folder of its own, with bodies and lidar, end to end: answer, table, replay, picture, bag; installs only what that needs, unless .venv is there
 ifdef UV
 	test -e $(STAMP) || UV_PROJECT_ENVIRONMENT=$(DEMO) UV_PYTHON_DOWNLOADS=never uv sync --quiet --locked --no-default-groups --group demo --python $(PYTHON)
 else

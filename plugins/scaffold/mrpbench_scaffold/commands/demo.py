@@ -35,13 +35,13 @@ WANTED = {
 """Plugins of each kind in order of preference: the demo uses the first that works here."""
 COMPARED = ("astar", "cbs", "eecbs")
 """The planners that are compared, if all are installed: the first plans for each robot as if there were no others.
-Planners of other projects are compared with them.
+Planners of other projects take its place.
 """
 LIBRARIES = {"pybullet": "pybullet", "mujoco": "mujoco"}
 """Modules without which a plugin does not work, although it is installed."""
 ROBOTS, WORKERS, BAG = 12, 4, "rosbag2"
-SEEDS = 13
-"""Enough for a clear answer about the planners that are compared, also with one of another project."""
+SEEDS = 14
+"""Enough for a clear answer."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -77,8 +77,9 @@ def _configuration() -> dict[str, Any]:
         chosen[kind] = working[0]
         if chosen[kind] != names[0]:
             print(f"{kind} {names[0]} is not available here ({_why(kind, names[0])}); the demo uses {chosen[kind]}")
-    own = list(COMPARED) if all(_works("planner", name) for name in COMPARED) else [chosen["planner"]]
-    compared = own + others()
+    compared = list(COMPARED) if all(_works("planner", name) for name in COMPARED) else [chosen["planner"]]
+    if third_party := others():
+        compared = [*third_party, *compared[1:]]
     return {
         "name": "demo",
         "world": "office",
