@@ -34,7 +34,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.critics": _CRITICS,
         "mrpbench.crowds": ("carts", "dynabarn", "orca", "scripted", "social_force"),
         "mrpbench.dispatchers": ("btpg", "gses", "sadg"),
-        "mrpbench.localizers": ("amcl",),
+        "mrpbench.localizers": ("amcl", "slam"),
         "mrpbench.metrics": _METRICS,
         "mrpbench.mppi_critics": _MPPI_CRITICS,
         "mrpbench.navigators": ("waypoints",),
