@@ -49,8 +49,9 @@ class CorrelativeSearch {
   std::vector<std::uint32_t> sums_;
 };
 
-/// Follow the slope of the responses from `start`, with at most a dozen Gauss-Newton steps on the squared distances that
-/// the responses stand for, each weighted by its response. The result is never worse than `start`.
+/// At most a dozen Gauss-Newton steps from `start` on the squared distances of the returns from what is occupied, each
+/// across the surface that it lies on (A. Censi, "An ICP variant using a point-to-line metric", ICRA 2008) and weighted by
+/// its response.
 Match refined(const Field& field, const Scan& scan, Pose start, Pose around, const Keeping& keeping);
 
 /// Mean response of the returns at a pose.

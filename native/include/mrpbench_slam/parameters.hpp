@@ -10,9 +10,9 @@ struct Parameters {
   double resolution = 0.05;
   double minimum_travel_distance = 0.5, minimum_travel_heading = 0.5, minimum_time_interval = 0.5;
   bool use_scan_matching = true;
-  double correlation_search_space_dimension = 0.5, correlation_search_space_smear_deviation = 0.1;
+  double correlation_search_space_dimension = 0.5, correlation_search_space_smear_deviation = 0.05;
   double coarse_search_angle_offset = 0.349, coarse_angle_resolution = 0.0349;
-  double translation_weight = 2, rotation_weight = 1;
+  double translation_weight = 4, rotation_weight = 0.3;
   int max_beams = 120, submap_scans = 20;
   bool do_loop_closing = true;
   double loop_search_maximum_distance = 3, loop_search_space_dimension = 8, loop_search_space_smear_deviation = 0.03;

@@ -9,13 +9,16 @@ constexpr std::size_t kFewest = 10;
 /// Deviations of odometry between two scans, metres and radians, for the graph alone.
 constexpr double kOdometryPlace = 0.02, kOdometryTurn = 0.04;
 /// A loop is searched for within this distance, and this share of the way since the earlier submap.
-constexpr double kSearch = 0.25, kDrift = 0.05;
+constexpr double kSearch = 0.25, kDrift = 0.02;
 /// Scans after a closed loop before the next search.
 constexpr std::size_t kPause = 3;
 /// Deviations from which on the error of a loop counts linearly.
 constexpr double kHuber = 10;
-/// How much a loop keeps to the pose that the graph gives, as a share of that of local matching.
-constexpr double kLoopKeeping = 0.1;
+/// What the mean response must gain for a match at the edge of the window of a loop.
+constexpr double kEdge = 0.1;
+/// Least share of what is known across the surfaces of a scan that must be known along them for a loop to close: in an
+/// aisle without features a scan fits anywhere.
+constexpr double kLeastAlong = 0.1;
 
 double squared(Point a) {
   return dot(a, a);
@@ -23,6 +26,14 @@ double squared(Point a) {
 
 Point place(Pose pose) {
   return {pose.x, pose.y};
+}
+
+/// The ratio of the least to the greatest information about a direction of the plane, where the yaw is unknown.
+double known_along(const Information& it) {
+  if (!(it[8] > 0)) return 0;
+  const double xx = it[0] - it[2] * it[2] / it[8], xy = it[1] - it[2] * it[5] / it[8], yy = it[4] - it[5] * it[5] / it[8];
+  const double mean = (xx + yy) / 2, apart = std::hypot((xx - yy) / 2, xy);
+  return mean > 0 ? (mean - apart) / (mean + apart) : 0;
 }
 
 }  // namespace
@@ -133,7 +144,7 @@ void Mapper::close_loop() {
   const Pose predicted = relative(frame_of(earlier.first), poses_[last]);
   const Window window{std::min(most, kSearch + kDrift * (driven_[last] - driven_[earlier.last])),
                       parameters_.coarse_search_angle_offset, parameters_.coarse_angle_resolution};
-  const Keeping keeping{kLoopKeeping * parameters_.translation_weight, kLoopKeeping * parameters_.rotation_weight};
+  const Keeping keeping{std::sqrt(kEdge) / window.half, 0};
   const auto coarse =
       earlier.search->best(scan, predicted, window, keeping, parameters_.loop_match_minimum_response_coarse);
   if (!coarse) return;
@@ -141,7 +152,7 @@ void Mapper::close_loop() {
   const double response = response_of(earlier.search->field(), scan, fine.pose);
   if (response < parameters_.loop_match_minimum_response_fine) return;
   Information information = information_of(earlier.submap.field(), scan, fine.pose);
-  for (const std::size_t diagonal : {0, 4, 8}) information[diagonal] += 1e-3;
+  if (known_along(information) < kLeastAlong) return;
   constraints_.push_back({earlier.first, last, relative(local_[earlier.first], fine.pose), information, kHuber});
   ++loops_;
   last_loop_ = last;

@@ -9,9 +9,11 @@ namespace {
 
 constexpr int kSteps = 12;
 /// Metres and radians below which a step ends the refinement.
-constexpr double kStill = 1e-5;
+constexpr double kStill = 1e-4;
 /// Responses that say nothing about a distance.
-constexpr double kFaint = 1e-3;
+constexpr double kFaint = 0.02;
+/// Added to the matrix, which may otherwise be singular where nothing keeps to the odometry.
+constexpr double kDamping = 1e-3;
 
 MRPBENCH_WIDE void add(const std::uint8_t* from, std::uint32_t* to, int count) {
   for (int i = 0; i < count; ++i) to[i] += from[i];
@@ -31,30 +33,29 @@ void add_window(const Grid<std::uint8_t>& grid, Cell centre, int half, std::uint
   }
 }
 
-/// The objective of the refinement at a pose, and its gradient and Gauss-Newton matrix.
-struct Objective {
-  double value = 0;
-  double gradient[3] = {};
+/// The equations of a Gauss-Newton step at a pose.
+struct Step {
+  double right[3] = {};
   double matrix[6] = {};  // xx, xy, xt, yy, yt, tt
 };
 
-Objective objective(const Field& field, const Scan& scan, Pose pose, Pose around, const Keeping& keeping) {
-  Objective found;
+Step step_at(const Field& field, const Scan& scan, Pose pose, Pose around, const Keeping& keeping) {
+  Step found;
   const double c = std::cos(pose.yaw), s = std::sin(pose.yaw), share = 1 / static_cast<double>(scan.returns.size());
-  const double per_square = 1 / (field.deviation() * field.deviation());
+  const double squares = field.deviation() * field.deviation();
   for (const Return& it : scan.returns) {
     const Response at = field.response(placed(pose, c, s, it.point));
-    found.value += share * at.value;
     const double size = sim::length(at.slope);
     if (!(at.value > kFaint && size > 0)) continue;
+    // Across the surface: along it, only the ends and gaps of what was seen so far would have an effect.
+    const bool flat = it.normal.x != 0 || it.normal.y != 0;
+    const Point across = flat ? Point{c * it.normal.x - s * it.normal.y, s * it.normal.x + c * it.normal.y}
+                              : at.slope * (1 / size);
     const double lever_x = -s * it.point.x - c * it.point.y, lever_y = c * it.point.x - s * it.point.y;
-    const double turn = at.slope.x * lever_x + at.slope.y * lever_y;
-    found.gradient[0] += share * at.slope.x;
-    found.gradient[1] += share * at.slope.y;
-    found.gradient[2] += share * turn;
-    // The distance that the response stands for changes along the slope: one row of the Jacobian.
-    const double weight = share * at.value * per_square;
-    const double row[3] = {at.slope.x / size, at.slope.y / size, turn / size};
+    const double row[3] = {across.x, across.y, across.x * lever_x + across.y * lever_y};
+    const double weight = share * at.value / squares;
+    const double distance = squares * dot(at.slope, across) / at.value;
+    for (int i = 0; i < 3; ++i) found.right[i] += weight * distance * row[i];
     found.matrix[0] += weight * row[0] * row[0];
     found.matrix[1] += weight * row[0] * row[1];
     found.matrix[2] += weight * row[0] * row[2];
@@ -62,15 +63,13 @@ Objective objective(const Field& field, const Scan& scan, Pose pose, Pose around
     found.matrix[4] += weight * row[1] * row[2];
     found.matrix[5] += weight * row[2] * row[2];
   }
-  const double dx = pose.x - around.x, dy = pose.y - around.y, turn = wrapped(pose.yaw - around.yaw);
   const double by_place = 2 * keeping.translation * keeping.translation, by_turn = 2 * keeping.rotation * keeping.rotation;
-  found.value -= keeping.penalty(dx * dx + dy * dy, turn);
-  found.gradient[0] -= by_place * dx;
-  found.gradient[1] -= by_place * dy;
-  found.gradient[2] -= by_turn * turn;
-  found.matrix[0] += by_place;
-  found.matrix[3] += by_place;
-  found.matrix[5] += by_turn;
+  found.right[0] -= by_place * (pose.x - around.x);
+  found.right[1] -= by_place * (pose.y - around.y);
+  found.right[2] -= by_turn * wrapped(pose.yaw - around.yaw);
+  found.matrix[0] += by_place + kDamping;
+  found.matrix[3] += by_place + kDamping;
+  found.matrix[5] += by_turn + kDamping;
   return found;
 }
 
@@ -114,24 +113,14 @@ Match CorrelativeSearch::best(const Field& field, const Scan& scan, Pose around,
 
 Match refined(const Field& field, const Scan& scan, Pose start, Pose around, const Keeping& keeping) {
   Pose pose = start;
-  Objective here = objective(field, scan, pose, around, keeping);
-  double damping = 1e-3;
-  for (int step = 0; step < kSteps; ++step) {
-    double matrix[6], move[3];
-    std::copy_n(here.matrix, 6, matrix);
-    for (const int diagonal : {0, 3, 5}) matrix[diagonal] += damping * (matrix[diagonal] + 1e-6);
-    if (!solve3(matrix, here.gradient, move)) break;
-    const Pose next{pose.x + move[0], pose.y + move[1], wrapped(pose.yaw + move[2])};
-    const Objective there = objective(field, scan, next, around, keeping);
-    if (there.value <= here.value) {
-      damping = damping * 10 + 0.1;
-      if (damping > 1e3) break;
-      continue;
-    }
-    pose = next;
-    here = there;
-    damping *= 0.3;
-    if (std::abs(move[0]) < kStill && std::abs(move[1]) < kStill && std::abs(move[2]) < kStill) break;
+  for (int count = 0; count < kSteps; ++count) {
+    const Step step = step_at(field, scan, pose, around, keeping);
+    double move[3];
+    if (!solve3(step.matrix, step.right, move)) break;
+    const double largest = std::max({std::abs(move[0]), std::abs(move[1]), std::abs(move[2])});
+    const double factor = std::min(1.0, field.deviation() / std::max(largest, kStill));
+    pose = {pose.x + factor * move[0], pose.y + factor * move[1], wrapped(pose.yaw + factor * move[2])};
+    if (largest < kStill) break;
   }
   return {pose, response_of(field, scan, pose)};
 }

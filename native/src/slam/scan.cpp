@@ -6,14 +6,34 @@ namespace mrpbench::slam {
 
 namespace {
 
-/// Metres between the neighbours of a return on one surface, at most, as a share of its range and at least.
-constexpr double kGapShare = 0.15, kGap = 0.1;
+/// Metres from a return to the neighbours that give its normal, at least, so that the noise of ranges turns it little.
+constexpr double kBaseline = 0.15;
+/// Beams to either side within which these are looked for.
+constexpr std::size_t kFarthest = 15;
+/// A neighbour farther away than this many times the baseline is on another surface.
+constexpr double kGap = 2.5;
+/// Cosine of the turn between both sides up to which a surface is straight.
+constexpr double kStraight = 0.8;
 
-Point unit_normal(Point before, Point after, double most) {
-  const Point along = after - before;
-  const double size = sim::length(along);
-  if (!(size > 1e-6 && size < most)) return {};
-  return Point{-along.y, along.x} * (1 / size);
+/// The neighbour of a hit towards one side, the number of hits itself if there is none.
+std::size_t neighbour(const std::vector<Point>& hits, std::size_t index, std::size_t step) {
+  const std::size_t count = hits.size();
+  for (std::size_t k = 1, at = index; k <= kFarthest && k < count; ++k) {
+    at = (at + step) % count;
+    const double distance = sim::length(hits[at] - hits[index]);
+    if (distance >= kGap * kBaseline) return count;
+    if (distance >= kBaseline) return at;
+  }
+  return count;
+}
+
+/// The unit vector across a surface at a hit; zero where its neighbours are on no straight one.
+Point normal_at(const std::vector<Point>& hits, std::size_t index) {
+  const std::size_t count = hits.size(), before = neighbour(hits, index, count - 1), after = neighbour(hits, index, 1);
+  if (before == count || after == count) return {};
+  const Point one = hits[index] - hits[before], other = hits[after] - hits[index], along = one + other;
+  if (dot(one, other) < kStraight * sim::length(one) * sim::length(other)) return {};
+  return Point{-along.y, along.x} * (1 / sim::length(along));
 }
 
 }  // namespace
@@ -28,8 +48,6 @@ Scan scan_of(std::span<const double> ranges, const Lidar& lidar, int max_beams) 
   Scan scan;
   scan.origin = lidar.mount;
   const std::size_t beams = ranges.size();
-  std::vector<std::size_t> returned;
-  returned.reserve(beams);
   scan.hits.reserve(beams);
   for (std::size_t beam = 0; beam < beams; ++beam) {
     const double distance = ranges[beam], angle = static_cast<double>(beam) * (2 * std::numbers::pi / static_cast<double>(beams));
@@ -37,17 +55,12 @@ Scan scan_of(std::span<const double> ranges, const Lidar& lidar, int max_beams) 
     const bool hit = distance < lidar.range;
     const Point end = lidar.mount + Point{std::cos(angle), std::sin(angle)} * (hit ? distance : lidar.range);
     (hit ? scan.hits : scan.misses).push_back(end);
-    if (hit) returned.push_back(beam);
   }
   const std::size_t count = scan.hits.size(), used = std::min(count, static_cast<std::size_t>(max_beams));
   scan.returns.reserve(used);
-  // Neighbours some beams away, because the noise of the nearest ones would turn the normal.
-  const std::size_t apart = std::max<std::size_t>(1, beams / 120);
   for (std::size_t i = 0; i < used; ++i) {
     const std::size_t index = i * count / used;
-    const std::size_t before = (index + count - apart) % count, after = (index + apart) % count;
-    const double most = std::max(kGap, kGapShare * ranges[returned[index]]) * 2;
-    scan.returns.push_back({scan.hits[index], unit_normal(scan.hits[before], scan.hits[after], most)});
+    scan.returns.push_back({scan.hits[index], normal_at(scan.hits, index)});
   }
   return scan;
 }
