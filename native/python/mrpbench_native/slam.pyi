@@ -57,11 +57,11 @@ def optimised(
     *,
     huber: float = 0.0,
 ) -> tuple[NDArray[np.float64], float]:
-    """Return the poses f8[n,3] that fit relative poses best, the first one as it is, and half of the sum of their losses.
+    """Return the poses f8[n,3] that fit relative poses best, the first as it is, and half of the sum of the losses.
 
     Constraint i says that pose `pairs[i, 1]` is at `measured[i]` f8[3] in the frame of pose `pairs[i, 0]`, with
-    the information matrix `information[i]` f8[9] (row by row). Errors beyond `huber` standard deviations count linearly;
-    0 = all count by their squares.
+    the information matrix `information[i]` f8[9] (row by row). Errors beyond `huber` standard deviations count
+    linearly; 0 = all count by their squares.
     """
 
 def options() -> list[Option]:

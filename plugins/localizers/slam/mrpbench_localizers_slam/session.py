@@ -10,6 +10,7 @@ from mrpbench_core.api import LocalizerSession
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Fleet, Lidar
 from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBatch
+from mrpbench_core.model.runs.recording import Chunk
 
 _OURS = ("max_laser_range", "min_laser_range", "map_update_interval")
 """Parameters that are not passed to the native part."""
@@ -25,6 +26,8 @@ class SlamSession(LocalizerSession):
             placements=np.array(placements, float).reshape(-1, 3),
             parameters={name: value for name, value in parameters.items() if name not in _OURS},
         )
+        self._resolution = parameters["resolution"]
+        self._interval, self._due = parameters["map_update_interval"], 0.0
         self._began = False
 
     def update(self, now: float, odometry: Odometry, scans: Sequence[ScanBatch], truth: Float | None) -> Estimate:  # noqa: ARG002
@@ -36,6 +39,22 @@ class SlamSession(LocalizerSession):
         for batch in scans:
             self._sense(now, batch, pose)
         return Estimate(pose=self._robots.poses(pose))
+
+    def map_changes(self, now: float, last: bool) -> Chunk:
+        """Return the tiles that changed, every `map_update_interval` seconds and at the end."""
+        if now < self._due and not last:
+            return {}
+        self._due = now + self._interval
+        changes = [self._robots.changed_tiles(robot) for robot in range(len(self._lidars))]
+        counts = [len(cells) for _, cells in changes]
+        index, cells = (np.concatenate(parts) for parts in zip(*changes, strict=True))
+        return {
+            "map_time": np.full(len(cells), now),
+            "map_robot": np.repeat(np.arange(len(counts), dtype=np.int32), counts),
+            "map_corner": index * (slam.TILE * self._resolution),
+            "map_side": np.full(len(cells), self._resolution),
+            "map_cells": cells,
+        }
 
     def _sense(self, now: float, batch: ScanBatch, odometry: Float) -> None:
         lidar = self._lidars[int(batch.robot[0])]

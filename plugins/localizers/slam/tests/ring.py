@@ -1,5 +1,6 @@
 """A corridor that leads around a block, 60 m long at its middle, and a TurtleBot3 that drives it once and a bit."""
 
+import attrs
 import numpy as np
 from mrpbench_simulators_planar import Planar
 
@@ -22,7 +23,12 @@ def world():
     """The corridor."""
 
     def box(left, bottom, right, top):
-        return [[left, bottom, right, bottom], [right, bottom, right, top], [right, top, left, top], [left, top, left, bottom]]
+        return [
+            [left, bottom, right, bottom],
+            [right, bottom, right, top],
+            [right, top, left, top],
+            [left, top, left, bottom],
+        ]
 
     walls = box(0, 0, 20, 14) + box(2, 2, 18, 12)
     walls += [wall for x, y in RECESSES for wall in box(x - 0.2, y - 0.2, x + 0.2, y + 0.2)]
@@ -40,7 +46,10 @@ def drive(seed, metres=64.0, lidar=0.01, odometry=0.005, bias=0.002):
     with Planar().open(world(), Fleet(robots=(BURGER,)), start, 0, PERIOD) as simulation:
         state = simulation.state
         while driven < metres:
-            scans = [(batch, np.maximum(batch.ranges + random.normal(0, lidar, batch.ranges.shape), 0)) for batch in simulation.scans()]
+            scans = [
+                (batch, np.maximum(batch.ranges + random.normal(0, lidar, batch.ranges.shape), 0))
+                for batch in simulation.scans()
+            ]
             steps.append((state.pose.copy(), believed.copy(), scans))
             bearing = np.arctan2(*(CORNERS[corner] - state.pose[0, :2])[::-1]) - state.pose[0, 2]
             turn = float(wrapped(np.array([bearing]))[0])
@@ -67,8 +76,6 @@ def localized(localizer, steps):
     session = localizer.start(Fleet(robots=(BURGER,)), world(), steps[0][0], 0)
     off = []
     for step, (truth, believed, scans) in enumerate(steps):
-        import attrs
-
         batches = [attrs.evolve(batch, ranges=ranges) for batch, ranges in scans]
         estimate = session.update(step * PERIOD, Odometry(pose=believed[None], twist=np.zeros((1, 2))), batches, None)
         off.append(np.hypot(*(estimate.pose - truth)[0, :2]))
