@@ -16,7 +16,7 @@ _MPPI_CRITICS = (
 )
 _METRICS = (
     *("planning", "execution", "barn", "clearance", "contact", "deadlock", "delay", "draws", "efficiency"),
-    *("fairness", "people", "smoothness", "stops", "tasks", "throughput", "tracking", "waiting"),
+    *("fairness", "localization", "people", "smoothness", "stops", "tasks", "throughput", "tracking", "waiting"),
 )
 _PLANNERS = (
     *("astar", "prioritized", "cbs", "ecbs", "eecbs", "cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"),
