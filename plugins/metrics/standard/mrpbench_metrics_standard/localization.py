@@ -7,7 +7,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, InputError, Metric, Value
-from mrpbench_core.checking.occupancy import rasterise
+from mrpbench_core.checking.occupancy import bounds, rasterise
 from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.common.geometry import point_segment_distance
 from mrpbench_core.model.common.poses import wrapped
@@ -83,7 +83,7 @@ def _of_maps(run: FinishedRun) -> dict[str, Value]:
     world, robots = run.context.world, len(run.context.fleet)
     corner, side, cells = run.channel("map_corner"), run.channel("map_side"), run.channel("map_cells")
     least, most = CELL_SIZES
-    if not len(side) or len(world.levels) > 1 or (side != side[0]).any() or not least <= side[0] <= most:
+    if not len(side) or len(world.levels) != 1 or (side != side[0]).any() or not least <= side[0] <= most:
         return {}
     size, last = float(side[0]), _last_tiles(run.channel("map_robot"), corner)
     corner, cells = corner[last], cells[last]
@@ -112,12 +112,18 @@ def _last_tiles(robot: Int, corner: Float) -> Int:
 def _wrong(run: FinishedRun, size: float, centres: Float, occupied: Bool) -> Bool:
     """bool[k]: which of the cells that lie within the world's raster are wrong."""
     level = run.context.world.levels[0]
-    touched = rasterise(level, size, rule="touched")
-    solid = rasterise(level, size, rule="centre", origin=touched.origin, shape=touched.shape)
-    near, deep = _spread(touched.blocked), np.logical_not(_spread(np.logical_not(solid.blocked)))
+    low, high = (edges / size for edges in bounds(level))
+    first = np.floor(low)
+    columns, rows = (np.ceil(high) - first).astype(int).tolist()
+    place = {"origin": tuple((first * size).tolist()), "shape": (rows, columns)}
+    touched, solid = (rasterise(level, size, rule=rule, **place) for rule in ("touched", "centre"))
+    near: Bool = _spread(touched.blocked)
+    deep: Bool = ~_spread(~solid.blocked)
     inside, index = _within(touched, centres)
-    index, occupied = index[inside], occupied[inside]
-    wrong: Bool = np.where(occupied, np.logical_not(near[index[:, 0], index[:, 1]]), deep[index[:, 0], index[:, 1]])
+    row, column = index[inside].T
+    wrong: Bool = deep[row, column]
+    drawn = occupied[inside]
+    wrong[drawn] = ~near[row, column][drawn]
     return wrong
 
 
