@@ -129,7 +129,8 @@ def _wrong(run: FinishedRun, size: float, centres: Float, occupied: Bool) -> Boo
 
 def _within(raster: Occupancy, points: Float) -> tuple[Bool, Int]:
     offset = (points - raster.origin) / raster.cell_size
-    inside: Bool = ((offset >= 0) & (offset < raster.shape[::-1])).all(axis=1)
+    beyond = (offset < 0) | (offset >= raster.shape[::-1])
+    inside: Bool = ~(beyond[:, 0] | beyond[:, 1])
     return inside, np.where(inside[:, None], offset[:, ::-1], 0).astype(np.int64)
 
 
