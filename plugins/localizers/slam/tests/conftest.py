@@ -1,8 +1,8 @@
-"""A corridor that leads around a block, 60 m long at its middle, and a TurtleBot3 that drives it once and a bit."""
+"""Runs with SLAM, and a corridor that leads around a block, 60 m long at its middle."""
 
 import attrs
 import numpy as np
-from mrpbench_simulators_planar import Planar
+import pytest
 
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
@@ -19,7 +19,7 @@ RECESSES = ((4.0, 0.0), (12.5, 0.0), (20.0, 5.0), (15.0, 14.0), (6.0, 14.0), (0.
 """Where pillars 0.4 m wide stand out from the outer walls."""
 
 
-def world():
+def _world():
     """The corridor."""
 
     def box(left, bottom, right, top):
@@ -35,7 +35,7 @@ def world():
     return World(name="ring", levels=(Level(name="L1", walls=walls),))
 
 
-def drive(seed, metres=64.0, lidar=0.01, odometry=0.005, bias=0.002):
+def _drive(seed, metres=64.0, lidar=0.01, odometry=0.005, bias=0.002):
     """Truth f8[T,1,3], odometry and scans of a robot that drives around the block, with noise as the engine adds it."""
     random = np.random.default_rng(seed)
     half = BURGER.wheel_separation / 2
@@ -43,7 +43,8 @@ def drive(seed, metres=64.0, lidar=0.01, odometry=0.005, bias=0.002):
     start = np.array([[1.0, 1.0, 0.0]])
     believed, driven, corner = np.zeros(3), 0.0, 1
     steps = []
-    with Planar().open(world(), Fleet(robots=(BURGER,)), start, 0, PERIOD) as simulation:
+    planar = pytest.importorskip("mrpbench_simulators_planar")
+    with planar.Planar().open(_world(), Fleet(robots=(BURGER,)), start, 0, PERIOD) as simulation:
         state = simulation.state
         while driven < metres:
             scans = [
@@ -71,12 +72,29 @@ def drive(seed, metres=64.0, lidar=0.01, odometry=0.005, bias=0.002):
     return steps
 
 
-def localized(localizer, steps):
+def _localized(localizer, steps):
     """Distances f8[T] in metres of the estimates from the truth, and the session."""
-    session = localizer.start(Fleet(robots=(BURGER,)), world(), steps[0][0], 0)
+    session = localizer.start(Fleet(robots=(BURGER,)), _world(), steps[0][0], 0)
     off = []
     for step, (truth, believed, scans) in enumerate(steps):
         batches = [attrs.evolve(batch, ranges=ranges) for batch, ranges in scans]
         estimate = session.update(step * PERIOD, Odometry(pose=believed[None], twist=np.zeros((1, 2))), batches, None)
         off.append(np.hypot(*(estimate.pose - truth)[0, :2]))
     return np.array(off), session
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _kept(kept_workers):
+    """Studies of a module share their worker processes."""
+
+
+@pytest.fixture(scope="session")
+def drive():
+    """Return a function that drives a robot around the block."""
+    return _drive
+
+
+@pytest.fixture(scope="session")
+def localized():
+    """Return a function that localizes the robot of a drive."""
+    return _localized
