@@ -150,15 +150,15 @@ def check_channel(name: str, rows: NDArray[Any], time: NDArray[Any], robots: int
         return f"{name} names a robot that does not exist"
     if name in ("released", "reached", "cleared", "level", "route_level", "route_revision") and (rows < 0).any():
         return f"{name} is negative"
-    if name == "speed_limit" and not (rows > 0).all():
-        return "speed_limit is not above 0"
+    if name in ("speed_limit", "map_side") and not (rows > 0).all():
+        return f"{name} is not above 0"
     if name in (*_FLOAT, "facility", "mover", "route_waypoint") and (np.abs(rows) > LARGEST).any():
         return f"{name} is not finite"
-    return _of_trajectories(name, rows)
+    return _of_drawings(name, rows)
 
 
-def _of_trajectories(name: str, rows: NDArray[Any]) -> str | None:
-    """What is wrong with the numbers of a channel of trajectories."""
+def _of_drawings(name: str, rows: NDArray[Any]) -> str | None:
+    """What is wrong with the numbers of a channel of trajectories or maps."""
     if name == "trajectory_pose" and not rows.shape[1]:
         return "trajectory_pose has no poses"
     if name == "trajectory_chosen" and (rows > 1).any() | (rows < 0).any():
@@ -167,8 +167,8 @@ def _of_trajectories(name: str, rows: NDArray[Any]) -> str | None:
         return "trajectory_cost is -inf"
     if name == "critic_score" and not np.isfinite(rows).all():
         return "critic_score is not finite"
-    if name == "trajectory_pose" and not (np.abs(rows) <= LARGEST).all():
-        return "trajectory_pose is not finite"
+    if name in ("trajectory_pose", "map_corner", "map_side") and not (np.abs(rows) <= LARGEST).all():
+        return f"{name} is not finite"
     return None
 
 

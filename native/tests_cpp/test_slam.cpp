@@ -68,11 +68,12 @@ Pose drawn(Draws& draws, double place, double turn) {
 
 TEST("beams with a return, beams without one, and beams that say nothing are told apart") {
   const double endless = std::numeric_limits<double>::infinity();
-  const Scan scan = scan_of(std::vector<double>{2.0, endless, 0.05, 4.0}, {3.5, 0.1, {0.5, 0}}, 120);
-  CHECK(scan.hits.size() == 1 && near(scan.hits[0].x, 2.5, 1e-12) && near(scan.hits[0].y, 0, 1e-12));
-  CHECK(scan.misses.size() == 2);
-  CHECK(near(scan.misses[0].x, 0.5, 1e-12) && near(scan.misses[0].y, 3.5, 1e-12));
-  CHECK(near(scan.misses[1].x, 0.5, 1e-12) && near(scan.misses[1].y, -3.5, 1e-12));
+  // ahead, then counter-clockwise: a return, a lost beam, one that is too near, a return, and three without a return
+  const std::vector<double> ranges{2.0, endless, 0.05, 2.0, endless, endless, 4.0, 2.0};
+  const Scan scan = scan_of(ranges, {3.5, 0.1, {0.5, 0}}, 120);
+  CHECK(scan.hits.size() == 3 && near(scan.hits[0].x, 2.5, 1e-12) && near(scan.hits[0].y, 0, 1e-12));
+  CHECK(scan.misses.size() == 1);
+  CHECK(near(scan.misses[0].x, 0.5 - 3.5 * std::sqrt(0.5), 1e-12) && near(scan.misses[0].y, -3.5 * std::sqrt(0.5), 1e-12));
   CHECK(near(scan.reach(), 2.5, 1e-12));
 }
 

@@ -30,7 +30,7 @@ struct Scan {
   Point origin;
   /// Where those end that return within the range.
   std::vector<Point> hits;
-  /// Where those end that do not: at the range.
+  /// Where those end that do not: at the range. A beam whose neighbours return was lost, and is left out.
   std::vector<Point> misses;
   /// Evenly spaced returns for matching.
   std::vector<Return> returns;

@@ -49,12 +49,16 @@ Scan scan_of(std::span<const double> ranges, const Lidar& lidar, int max_beams) 
   scan.origin = lidar.mount;
   const std::size_t beams = ranges.size();
   scan.hits.reserve(beams);
+  const auto missed = [&](std::size_t beam) { return ranges[beam % beams] >= lidar.range; };
   for (std::size_t beam = 0; beam < beams; ++beam) {
     const double distance = ranges[beam], angle = static_cast<double>(beam) * (2 * std::numbers::pi / static_cast<double>(beams));
     if (!(distance >= lidar.min_range)) continue;
-    const bool hit = distance < lidar.range;
-    const Point end = lidar.mount + Point{std::cos(angle), std::sin(angle)} * (hit ? distance : lidar.range);
-    (hit ? scan.hits : scan.misses).push_back(end);
+    const Point along{std::cos(angle), std::sin(angle)};
+    if (!missed(beam)) {
+      scan.hits.push_back(lidar.mount + along * distance);
+    } else if (missed(beam + 1) && missed(beam + beams - 1)) {
+      scan.misses.push_back(lidar.mount + along * lidar.range);
+    }
   }
   const std::size_t count = scan.hits.size(), used = std::min(count, static_cast<std::size_t>(max_beams));
   scan.returns.reserve(used);

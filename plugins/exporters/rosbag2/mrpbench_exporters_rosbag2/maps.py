@@ -13,6 +13,8 @@ from mrpbench_exporters_rosbag2.messages import Topic, header, message, nanoseco
 from mrpbench_exporters_rosbag2.raster import MOST_CELLS
 
 UNKNOWN = -1
+LEAST_SIDE = 0.001
+"""Metres of a cell of a map that is shown."""
 
 
 class RobotMap:
@@ -33,6 +35,8 @@ class RobotMap:
         edges = [0, *(np.flatnonzero(np.diff(times)) + 1).tolist(), len(own)] if len(own) else []
         for begin, end in pairwise(edges):
             rows, side = own[begin:end], float(block["map_side"][own[begin]])
+            if side < LEAST_SIDE:
+                continue
             for low, cells in zip(np.rint(block["map_corner"][rows] / side), block["map_cells"][rows], strict=True):
                 self._draw(low.astype(np.int64), cells)
             stamp = int(nanoseconds(times[begin])) + start
