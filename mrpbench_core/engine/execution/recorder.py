@@ -53,15 +53,11 @@ TASKS: dict[str, tuple[str, tuple[int, ...]]] = {
 """The same, where tasks come over time."""
 
 TRAJECTORY: dict[str, tuple[str, tuple[int, ...]]] = {
-    "trajectory_time": ("f8", ()),
-    "trajectory_robot": ("i4", ()),
+    **dict.fromkeys(("trajectory_time", "trajectory_cost", "critic_time", "critic_score"), ("f8", ())),
+    **dict.fromkeys(("trajectory_robot", "critic_robot"), ("i4", ())),
     "trajectory_chosen": ("u1", ()),
-    "trajectory_cost": ("f8", ()),
     "trajectory_pose": ("f4", (POSES, 3)),
-    "critic_time": ("f8", ()),
-    "critic_robot": ("i4", ()),
     "critic_name": ("U1", ()),
-    "critic_score": ("f8", ()),
 }
 """The same, where the trajectories of controllers are recorded."""
 
