@@ -22,7 +22,7 @@ class LocalizerSession(ABC):
     def map_changes(self, now: float, last: bool) -> Chunk:  # noqa: ARG002 - by default there are no maps
         """Return the tiles of robots' maps that changed, as rows of the channels `map_...`; {} = none to record now.
 
-        `map_corner` is the lower left corner of a tile in `map`, `map_side` the side of its cells in metres. `map_cells`
+        `map_corner` is the lower left corner of a tile in `map`, `map_side` that of its cells, metres. `map_cells`
         has the values of `nav_msgs/OccupancyGrid`, row by row from there: -1 = unknown, 0 = free to 100 = occupied.
         """
         return {}
