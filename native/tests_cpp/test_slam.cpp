@@ -178,6 +178,13 @@ TEST("what has moved away is free again after some scans, and walls stay") {
   CHECK(walls > 25);
 }
 
+TEST("a scan overlaps the submap of a place that was seen, and not that of the other side of a wall") {
+  const std::vector<Segment> walls{{{-3, 0}, {3, 0}}, {{-3, 0.1}, {3, 0.1}}, {{-3, 2}, {3, 2}}, {{-3, -2}, {3, -2}}};
+  const Submap submap = submap_of(walls, {{-1, 1, 0}, {0, 1, 0}, {1, 1, 0}});
+  CHECK(submap.overlap(scan_at(walls, {0.5, 1.2, 1.0}), {0.5, 1.2, 1.0}) > 0.95);
+  CHECK(submap.overlap(scan_at(walls, {0.5, -1, 1.0}), {0.5, -1, 1.0}) < 0.6);
+}
+
 TEST("the search finds what an exhaustive one finds") {
   const Submap submap = submap_of(kRoom, {{2.3, 1.2, 0.3}, {3.8, 2.5, 2.0}});
   const Window window{0.3, 0.3, 0.05};

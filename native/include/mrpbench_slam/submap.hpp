@@ -18,6 +18,9 @@ class Submap {
   const Field& field() const { return field_; }
   int scans() const { return scans_; }
 
+  /// The share of the returns of a scan, taken at a pose, that lie on or next to cells that were seen.
+  double overlap(const Scan& scan, Pose pose) const;
+
   /// A field of the occupied cells with another deviation.
   Field field_of(double deviation) const;
 

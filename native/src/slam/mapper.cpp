@@ -9,13 +9,15 @@ constexpr std::size_t kFewest = 10;
 /// Deviations of odometry between two scans, metres and radians, for the graph alone.
 constexpr double kOdometryPlace = 0.02, kOdometryTurn = 0.04;
 /// A loop is searched for within this distance, and this share of the way since the earlier submap.
-constexpr double kSearch = 0.25, kDrift = 0.02;
+constexpr double kSearch = 0.25, kDrift = 0.01;
 /// Scans after a closed loop before the next search.
 constexpr std::size_t kPause = 3;
 /// Deviations from which on the error of a loop counts linearly.
 constexpr double kHuber = 10;
 /// What the mean response must gain for a match at the edge of the window of a loop.
-constexpr double kEdge = 0.1;
+constexpr double kEdge = 0.3;
+/// Least share of the returns that lie where an earlier submap has seen something: the other side of a rack fits anywhere.
+constexpr double kOverlap = 0.7;
 /// Least share of what is known across the surfaces of a scan that must be known along them for a loop to close: in an
 /// aisle without features a scan fits anywhere.
 constexpr double kLeastAlong = 0.1;
@@ -137,11 +139,12 @@ void Mapper::close_loop() {
   const Earlier* found = nearest_earlier();
   if (found == nullptr || scan.returns.size() < kFewest) return;
   Earlier& earlier = earlier_[static_cast<std::size_t>(found - earlier_.data())];
+  const Pose predicted = relative(frame_of(earlier.first), poses_[last]);
+  if (earlier.submap.overlap(scan, predicted) < kOverlap) return;
   const double most = parameters_.loop_search_space_dimension / 2;
   if (!earlier.search) {
     earlier.search.emplace(earlier.submap.field_of(parameters_.loop_search_space_smear_deviation), most);
   }
-  const Pose predicted = relative(frame_of(earlier.first), poses_[last]);
   const Window window{std::min(most, kSearch + kDrift * (driven_[last] - driven_[earlier.last])),
                       parameters_.coarse_search_angle_offset, parameters_.coarse_angle_resolution};
   const Keeping keeping{std::sqrt(kEdge) / window.half, 0};

@@ -47,6 +47,19 @@ void Submap::insert(const Scan& scan, Pose pose) {
   }
 }
 
+double Submap::overlap(const Scan& scan, Pose pose) const {
+  constexpr int kNear = 3;
+  const double c = std::cos(pose.yaw), s = std::sin(pose.yaw), per_metre = 1 / field_.resolution();
+  const auto seen = [this](int column, int row) { return cells_.value({column, row}).scan != 0; };
+  std::size_t count = 0;
+  for (const Return& it : scan.returns) {
+    const Point at = placed(pose, c, s, it.point) * per_metre;
+    const int x = floor_index(at.x), y = floor_index(at.y);
+    count += seen(x, y) || seen(x - kNear, y) || seen(x + kNear, y) || seen(x, y - kNear) || seen(x, y + kNear);
+  }
+  return scan.returns.empty() ? 0 : static_cast<double>(count) / static_cast<double>(scan.returns.size());
+}
+
 Field Submap::field_of(double deviation) const {
   Field field(field_.resolution(), deviation);
   const Box& box = cells_.box();
