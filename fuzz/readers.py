@@ -15,7 +15,6 @@ import maps
 import numpy as np
 from bundles import bundles, read_bundle
 from containers import in_zip, mutate_database, mutate_mcap
-from examples import RUN, bags, example, recording, records, scenarios
 from mrpbench_analysis.observed_run import Sampling, observe, observe_recording
 from mrpbench_controllers_dwb.dwb import Dwb
 from mrpbench_exporters_rosbag2 import Rosbag2
@@ -28,6 +27,7 @@ from mrpbench_replay.write_page import write_page
 from mrpbench_worlds_standard.rmf import Rmf
 from mutation import Mutate, mutate_bytes, mutate_npy, mutate_text
 
+from examples import RUN, bags, example, recording, records, scenarios
 from mrpbench_core.builtin.task_sources.trace import read_arrivals
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.processes.slots import slots_of_this_process

@@ -154,10 +154,10 @@ def check_channel(name: str, rows: NDArray[Any], time: NDArray[Any], robots: int
         return f"{name} is not above 0"
     if name in (*_FLOAT, "facility", "mover", "route_waypoint") and (np.abs(rows) > LARGEST).any():
         return f"{name} is not finite"
-    return _of_drawings(name, rows)
+    return _of_trajectories_or_maps(name, rows)
 
 
-def _of_drawings(name: str, rows: NDArray[Any]) -> str | None:
+def _of_trajectories_or_maps(name: str, rows: NDArray[Any]) -> str | None:
     """What is wrong with the numbers of a channel of trajectories or maps."""
     if name == "trajectory_pose" and not rows.shape[1]:
         return "trajectory_pose has no poses"

@@ -112,7 +112,7 @@ NB_MODULE(slam, module) {
           "loops", [](const Fleet& self, std::size_t robot) { return checked(self, robot).loops(); }, "robot"_a)
       .def("changed_tiles", &changed_tiles, "robot"_a, nb::rv_policy::automatic);
 
-  module.def("optimised", &optimised, "poses"_a, "pairs"_a, "measured"_a, "information"_a, nb::kw_only(), "huber"_a = 0.0,
-             nb::rv_policy::automatic);
+  module.def("optimised", &optimised, "poses"_a, "pairs"_a, "measured"_a, "information"_a, nb::kw_only(),
+             "huber"_a = 0.0, nb::rv_policy::automatic);
   module.def("options", [] { return parameters(Parameters::description()); });
 }

@@ -23,9 +23,9 @@ bool near(Pose a, Pose b, double place, double turn) {
 }
 
 /// The walls of a room with a recess, and a crate in it.
-const std::vector<Segment> kRoom{{{0, 0}, {5, 0}},     {{5, 0}, {5, 4}},   {{5, 4}, {0, 4}},   {{0, 4}, {0, 0}},
-                                 {{3, 0}, {3, 1.2}},   {{1, 2.6}, {1.6, 2.8}}, {{1.6, 2.8}, {1.2, 3.4}},
-                                 {{1.2, 3.4}, {1, 2.6}}};
+const std::vector<Segment> kRoom{{{0, 0}, {5, 0}},         {{5, 0}, {5, 4}},      {{5, 4}, {0, 4}},
+                                 {{0, 4}, {0, 0}},         {{3, 0}, {3, 1.2}},    {{1, 2.6}, {1.6, 2.8}},
+                                 {{1.6, 2.8}, {1.2, 3.4}}, {{1.2, 3.4}, {1, 2.6}}};
 /// Two walls that never end, as far as a lidar sees.
 const std::vector<Segment> kAisle{{{-50, -1}, {50, -1}}, {{-50, 1}, {50, 1}}};
 
@@ -43,8 +43,8 @@ double cast(const std::vector<Segment>& walls, Pose pose, double angle, double r
   return nearest < range ? nearest : std::numeric_limits<double>::infinity();
 }
 
-Scan scan_at(const std::vector<Segment>& walls, Pose pose, double noise = 0, std::uint64_t seed = 0,
-             double range = 3.5, int beams = 360) {
+Scan scan_at(const std::vector<Segment>& walls, Pose pose, double noise = 0, std::uint64_t seed = 0, double range = 3.5,
+             int beams = 360) {
   Draws draws(seed, 0, 0);
   std::vector<double> ranges;
   for (int beam = 0; beam < beams; ++beam) {
@@ -73,7 +73,8 @@ TEST("beams with a return, beams without one, and beams that say nothing are tol
   const Scan scan = scan_of(ranges, {3.5, 0.1, {0.5, 0}}, 120);
   CHECK(scan.hits.size() == 3 && near(scan.hits[0].x, 2.5, 1e-12) && near(scan.hits[0].y, 0, 1e-12));
   CHECK(scan.misses.size() == 1);
-  CHECK(near(scan.misses[0].x, 0.5 - 3.5 * std::sqrt(0.5), 1e-12) && near(scan.misses[0].y, -3.5 * std::sqrt(0.5), 1e-12));
+  CHECK(near(scan.misses[0].x, 0.5 - 3.5 * std::sqrt(0.5), 1e-12) &&
+        near(scan.misses[0].y, -3.5 * std::sqrt(0.5), 1e-12));
   CHECK(near(scan.reach(), 2.5, 1e-12));
 }
 
@@ -253,7 +254,8 @@ TEST("Cholesky's decomposition in an envelope solves what elimination solves") {
   for (int round = 0; round < 20; ++round) {
     const std::size_t size = 12;
     std::vector<std::size_t> first;
-    for (std::size_t i = 0; i < size; ++i) first.push_back(static_cast<std::size_t>(draws.uniform() * static_cast<double>(i + 1)));
+    for (std::size_t i = 0; i < size; ++i)
+      first.push_back(static_cast<std::size_t>(draws.uniform() * static_cast<double>(i + 1)));
     Envelope matrix(first);
     std::vector<std::vector<double>> full(size, std::vector<double>(size + 1));
     for (std::size_t i = 0; i < size; ++i) {
@@ -286,7 +288,8 @@ TEST("Cholesky's decomposition in an envelope solves what elimination solves") {
 TEST("constraints that agree are met exactly, from any start") {
   Draws draws(13, 0, 0);
   std::vector<Pose> truth{{1, 2, 0.5}};
-  for (int i = 1; i < 40; ++i) truth.push_back(composed(truth.back(), {0.5, 0.1 * draws.uniform(), 0.3 * draws.uniform()}));
+  for (int i = 1; i < 40; ++i)
+    truth.push_back(composed(truth.back(), {0.5, 0.1 * draws.uniform(), 0.3 * draws.uniform()}));
   std::vector<Constraint> constraints;
   const Information information{100, 10, 0, 10, 50, 5, 0, 5, 400};
   const auto bind = [&](std::size_t from, std::size_t to) {
@@ -302,16 +305,16 @@ TEST("constraints that agree are met exactly, from any start") {
   for (std::size_t i = 0; i < truth.size(); ++i) CHECK(near(poses[i], truth[i], 1e-5, 1e-5));
 }
 
-TEST("the map is the same whether scans were drawn where they are, or moved there") {
+TEST("the map is the same whether scans were inserted where they are, or moved there") {
   const std::vector<Pose> poses{{2.3, 1.2, 0.3}, {3.8, 2.5, 2.0}, {2.0, 1.8, -1.0}};
   OccupancyMap direct(0.05, 2, 0.1), moved(0.05, 2, 0.1);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const Scan scan = scan_at(kRoom, poses[i], 0.01, i);
-    direct.draw(i, scan, poses[i]);
-    moved.draw(i, scan, composed(poses[i], {0.3, -0.2, 0.1}));
+    direct.insert(i, scan, poses[i]);
+    moved.insert(i, scan, composed(poses[i], {0.3, -0.2, 0.1}));
   }
   CHECK(!moved.changed().empty());
-  for (std::size_t i = 0; i < poses.size(); ++i) moved.draw(i, scan_at(kRoom, poses[i], 0.01, i), poses[i]);
+  for (std::size_t i = 0; i < poses.size(); ++i) moved.insert(i, scan_at(kRoom, poses[i], 0.01, i), poses[i]);
   for (int row = -20; row < 100; ++row) {
     for (int column = -20; column < 120; ++column) {
       CHECK(direct.value({column, row}) == moved.value({column, row}));
@@ -324,7 +327,7 @@ TEST("the tiles that changed make up the map") {
   std::vector<std::pair<Cell, Tile>> shown;
   for (std::size_t i = 0; i < 4; ++i) {
     const Pose pose{2.0 + 0.3 * static_cast<double>(i), 1.5, 0.4};
-    map.draw(i, scan_at(kRoom, pose, 0.01, i), pose);
+    map.insert(i, scan_at(kRoom, pose, 0.01, i), pose);
     for (const Tile& tile : map.changed()) {
       std::erase_if(shown, [&](const auto& it) { return it.first == tile.index; });
       shown.emplace_back(tile.index, tile);

@@ -33,7 +33,8 @@ class Field {
         if (grid_.has({x, y})) grid_.at({x, y}) = 0;
       }
     }
-    const Box within{{freed.column - radius_, freed.row - radius_}, {freed.column + radius_ + 1, freed.row + radius_ + 1}};
+    const Box within{{freed.column - radius_, freed.row - radius_},
+                     {freed.column + radius_ + 1, freed.row + radius_ + 1}};
     for (int y = freed.row - twice; y <= freed.row + twice; ++y) {
       for (int x = freed.column - twice; x <= freed.column + twice; ++x) {
         if (is_occupied(Cell{x, y})) stamp({x, y}, within);

@@ -1,5 +1,6 @@
-// One robot's localisation and mapping: scans are matched with the older of two growing submaps, as in the local SLAM of
-// Hess et al. 2016, and a graph of the poses of all scans corrects them where the robot comes back to an earlier submap.
+// One robot's localisation and mapping: scans are matched with the older of two growing submaps, as in the local SLAM
+// of Hess et al. 2016, and a graph of the poses of all scans corrects them where the robot comes back to an earlier
+// submap.
 #pragma once
 
 #include <optional>
@@ -34,7 +35,7 @@ class Mapper {
   const std::vector<Pose>& poses() const { return poses_; }
   std::size_t loops() const { return loops_; }
 
-  /// Draw what has changed, and return the tiles of the map that differ from those of the last call.
+  /// Bring the map up to date, and return the tiles of the map that differ from those of the last call.
   std::vector<Tile> changed_tiles();
 
  private:

@@ -1,6 +1,6 @@
-// Where a scan fits a submap best: the correlative search of E. B. Olson, "Real-Time Correlative Scan Matching", ICRA 2009,
-// then Gauss-Newton steps as in S. Kohlbrecher, O. von Stryk, J. Meyer and U. Klingauf, "A Flexible and Scalable SLAM
-// System with Full 3D Motion Estimation", SSRR 2011.
+// Where a scan fits a submap best: the correlative search of E. B. Olson, "Real-Time Correlative Scan Matching", ICRA
+// 2009, then Gauss-Newton steps as in S. Kohlbrecher, O. von Stryk, J. Meyer and U. Klingauf, "A Flexible and Scalable
+// SLAM System with Full 3D Motion Estimation", SSRR 2011.
 #pragma once
 
 #include <array>
@@ -50,8 +50,8 @@ class CorrelativeSearch {
 };
 
 /// At most a dozen Gauss-Newton steps from `start` on the squared distances of the returns from what is occupied, each
-/// across the surface that it lies on (A. Censi, "An ICP variant using a point-to-line metric", ICRA 2008) and weighted by
-/// its response.
+/// across the surface that it lies on (A. Censi, "An ICP variant using a point-to-line metric", ICRA 2008) and weighted
+/// by its response.
 Match refined(const Field& field, const Scan& scan, Pose start, Pose around, const Keeping& keeping);
 
 /// Mean response of the returns at a pose.

@@ -1,5 +1,5 @@
-// The map of all scans at their present poses: the share of the beams through each cell that end in it (H. P. Moravec and
-// A. Elfes, "High Resolution Maps from Wide Angle Sonar", ICRA 1985, as counts). Cells have the values of
+// The map of all scans at their present poses: the share of the beams through each cell that end in it (H. P. Moravec
+// and A. Elfes, "High Resolution Maps from Wide Angle Sonar", ICRA 1985, as counts). Cells have the values of
 // nav_msgs/OccupancyGrid.
 #pragma once
 
@@ -25,8 +25,8 @@ class OccupancyMap {
   OccupancyMap(double resolution, int min_pass_through, double occupancy_threshold)
       : resolution_(resolution), least_(min_pass_through), share_(occupancy_threshold) {}
 
-  /// Draw scan `index` at a pose, where it is new or has moved by more than half a cell since it was drawn.
-  void draw(std::size_t index, const Scan& scan, Pose pose);
+  /// Insert scan `index` at a pose, where it is new or has moved by more than half a cell since it was inserted.
+  void insert(std::size_t index, const Scan& scan, Pose pose);
 
   std::int8_t value(Cell it) const;
 
@@ -44,10 +44,10 @@ class OccupancyMap {
   int least_;
   double share_;
   Grid<Counts> counts_;
-  /// By tile: 1 = was drawn on; by cell: the value that was returned, plus 1.
+  /// By tile: 1 = may have changed; by cell: the value that was returned, plus 1.
   Grid<std::uint8_t> touched_;
   Grid<std::int8_t> shown_;
-  std::vector<Pose> drawn_;
+  std::vector<Pose> inserted_;
 };
 
 }  // namespace mrpbench::slam

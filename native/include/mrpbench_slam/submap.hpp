@@ -1,5 +1,5 @@
-// A submap: an occupancy grid of some scans, each cell with the logarithm of its odds (Hess et al. 2016, section IV). What
-// moves leaves a cell occupied only until enough beams have passed it.
+// A submap: an occupancy grid of some scans, each cell with the logarithm of its odds (Hess et al. 2016, section IV).
+// What moves leaves a cell occupied only until enough beams have passed it.
 #pragma once
 
 #include "mrpbench_slam/field.hpp"

@@ -12,7 +12,8 @@ struct Spline {
   double weight[3], slope[3];
 
   explicit Spline(double u)
-      : weight{0.5 * (0.5 - u) * (0.5 - u), 0.75 - u * u, 0.5 * (0.5 + u) * (0.5 + u)}, slope{u - 0.5, -2 * u, u + 0.5} {}
+      : weight{0.5 * (0.5 - u) * (0.5 - u), 0.75 - u * u, 0.5 * (0.5 + u) * (0.5 + u)},
+        slope{u - 0.5, -2 * u, u + 0.5} {}
 };
 
 }  // namespace
@@ -44,7 +45,8 @@ void Field::stamp(Cell occupied, Box within) {
   const int bottom = std::max(occupied.row - radius_, within.low.row);
   const int top = std::min(occupied.row + radius_ + 1, within.high.row);
   for (int y = bottom; y < top; ++y) {
-    const std::uint8_t* from = kernel_.data() + (y - occupied.row + radius_) * width + (left - occupied.column + radius_);
+    const std::uint8_t* from =
+        kernel_.data() + (y - occupied.row + radius_) * width + (left - occupied.column + radius_);
     std::uint8_t* to = grid_.row(y) + (left - grid_.box().low.column);
     for (int x = left; x < right; ++x, ++from, ++to) *to = std::max(*to, *from);
   }

@@ -40,7 +40,8 @@ void Fleet::sense(const Scans& scans, std::span<const Pose> odometry, double now
     require(robot >= 0 && static_cast<std::size_t>(robot) < mappers_.size(), "there is no such robot");
     const auto index = static_cast<std::size_t>(robot);
     if (!mappers_[index].wants(now, odometry[index])) continue;
-    mappers_[index].take(now, odometry[index], scan_of(scans.ranges.subspan(row * beams, beams), scans.lidar, max_beams_));
+    mappers_[index].take(now, odometry[index],
+                         scan_of(scans.ranges.subspan(row * beams, beams), scans.lidar, max_beams_));
   }
 }
 

@@ -46,7 +46,8 @@ struct LoopSearch::Search {
   double penalty(const Node& node) const {
     const int size = 1 << node.level;
     const auto nearest = [&](int low) { return low > 0 ? low : std::min(0, low + size - 1); };
-    const double dx = nearest(node.offset.column - half) * resolution, dy = nearest(node.offset.row - half) * resolution;
+    const double dx = nearest(node.offset.column - half) * resolution,
+                 dy = nearest(node.offset.row - half) * resolution;
     return keeping.penalty(dx * dx + dy * dy, turned[node.yaw].yaw - yaw);
   }
 };

@@ -16,7 +16,8 @@ constexpr std::size_t kPause = 3;
 constexpr double kHuber = 10;
 /// What the mean response must gain for a match at the edge of the window of a loop.
 constexpr double kEdge = 0.3;
-/// Least share of the returns that lie where an earlier submap has seen something: the other side of a rack fits anywhere.
+/// Least share of the returns that lie where an earlier submap has seen something: the other side of a rack fits
+/// anywhere.
 constexpr double kOverlap = 0.7;
 /// Least share of what is known across the surfaces of a scan that must be known along them for a loop to close: in an
 /// aisle without features a scan fits anywhere.
@@ -33,7 +34,8 @@ Point place(Pose pose) {
 /// The ratio of the least to the greatest information about a direction of the plane, where the yaw is unknown.
 double known_along(const Information& it) {
   if (!(it[8] > 0)) return 0;
-  const double xx = it[0] - it[2] * it[2] / it[8], xy = it[1] - it[2] * it[5] / it[8], yy = it[4] - it[5] * it[5] / it[8];
+  const double xx = it[0] - it[2] * it[2] / it[8], xy = it[1] - it[2] * it[5] / it[8],
+               yy = it[4] - it[5] * it[5] / it[8];
   const double mean = (xx + yy) / 2, apart = std::hypot((xx - yy) / 2, xy);
   return mean > 0 ? (mean - apart) / (mean + apart) : 0;
 }
@@ -163,7 +165,7 @@ void Mapper::close_loop() {
 }
 
 std::vector<Tile> Mapper::changed_tiles() {
-  for (std::size_t index = 0; index < scans_.size(); ++index) map_.draw(index, scans_[index], poses_[index]);
+  for (std::size_t index = 0; index < scans_.size(); ++index) map_.insert(index, scans_[index], poses_[index]);
   return map_.changed();
 }
 

@@ -49,8 +49,8 @@ Step step_at(const Field& field, const Scan& scan, Pose pose, Pose around, const
     if (!(at.value > kFaint && size > 0)) continue;
     // Across the surface: along it, only the ends and gaps of what was seen so far would have an effect.
     const bool flat = it.normal.x != 0 || it.normal.y != 0;
-    const Point across = flat ? Point{c * it.normal.x - s * it.normal.y, s * it.normal.x + c * it.normal.y}
-                              : at.slope * (1 / size);
+    const Point across =
+        flat ? Point{c * it.normal.x - s * it.normal.y, s * it.normal.x + c * it.normal.y} : at.slope * (1 / size);
     const double lever_x = -s * it.point.x - c * it.point.y, lever_y = c * it.point.x - s * it.point.y;
     const double row[3] = {across.x, across.y, across.x * lever_x + across.y * lever_y};
     const double weight = share * at.value / squares;
@@ -63,7 +63,8 @@ Step step_at(const Field& field, const Scan& scan, Pose pose, Pose around, const
     found.matrix[4] += weight * row[1] * row[2];
     found.matrix[5] += weight * row[2] * row[2];
   }
-  const double by_place = 2 * keeping.translation * keeping.translation, by_turn = 2 * keeping.rotation * keeping.rotation;
+  const double by_place = 2 * keeping.translation * keeping.translation,
+               by_turn = 2 * keeping.rotation * keeping.rotation;
   found.right[0] -= by_place * (pose.x - around.x);
   found.right[1] -= by_place * (pose.y - around.y);
   found.right[2] -= by_turn * wrapped(pose.yaw - around.yaw);

@@ -19,13 +19,13 @@ double moved(const Scan& scan, Pose before, Pose after) {
 
 }  // namespace
 
-void OccupancyMap::draw(std::size_t index, const Scan& scan, Pose pose) {
-  if (index < drawn_.size()) {
-    if (moved(scan, drawn_[index], pose) <= resolution_ / 2) return;
-    add(scan, drawn_[index], -1);
-    drawn_[index] = pose;
+void OccupancyMap::insert(std::size_t index, const Scan& scan, Pose pose) {
+  if (index < inserted_.size()) {
+    if (moved(scan, inserted_[index], pose) <= resolution_ / 2) return;
+    add(scan, inserted_[index], -1);
+    inserted_[index] = pose;
   } else {
-    drawn_.push_back(pose);
+    inserted_.push_back(pose);
   }
   add(scan, pose, 1);
 }

@@ -51,7 +51,8 @@ Scan scan_of(std::span<const double> ranges, const Lidar& lidar, int max_beams) 
   scan.hits.reserve(beams);
   const auto missed = [&](std::size_t beam) { return ranges[beam % beams] >= lidar.range; };
   for (std::size_t beam = 0; beam < beams; ++beam) {
-    const double distance = ranges[beam], angle = static_cast<double>(beam) * (2 * std::numbers::pi / static_cast<double>(beams));
+    const double distance = ranges[beam],
+                 angle = static_cast<double>(beam) * (2 * std::numbers::pi / static_cast<double>(beams));
     if (!(distance >= lidar.min_range)) continue;
     const Point along{std::cos(angle), std::sin(angle)};
     if (!missed(beam)) {

@@ -1,4 +1,4 @@
-"""Packs the maps that robots drew, with fewer states if there are too many for a page."""
+"""Packs the maps that robots built, with fewer states if there are too many for a page."""
 
 from typing import Any
 

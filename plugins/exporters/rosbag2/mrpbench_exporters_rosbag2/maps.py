@@ -1,4 +1,4 @@
-"""The maps that robots draw, as slam_toolbox publishes them: the whole map of a robot whenever some of it changed."""
+"""The maps that robots build, as slam_toolbox publishes them: the whole map of a robot whenever some of it changed."""
 
 from collections.abc import Iterator
 from itertools import pairwise
@@ -38,11 +38,11 @@ class RobotMap:
             if side < LEAST_SIDE:
                 continue
             for low, cells in zip(np.rint(block["map_corner"][rows] / side), block["map_cells"][rows], strict=True):
-                self._draw(low.astype(np.int64), cells)
+                self._insert(low.astype(np.int64), cells)
             stamp = int(nanoseconds(times[begin])) + start
             yield stamp, serialize(self.topic.type, self._grid(stamp, side))
 
-    def _draw(self, low: NDArray[np.int64], cells: NDArray[np.int8]) -> None:
+    def _insert(self, low: NDArray[np.int64], cells: NDArray[np.int8]) -> None:
         """Put a tile into the map, which grows as far as necessary."""
         size = np.array(cells.shape[::-1])
         if not self._cells.size:

@@ -1,4 +1,4 @@
-"""The maps that robots draw."""
+"""The maps that robots build."""
 
 import numpy as np
 import pytest

@@ -34,13 +34,13 @@ _NOT_USED = (
 _KEPT = {"mode": "mapping", "inverted_laser": False}
 """What is not implemented in any other way."""
 _MAPS = ("map_file_name", "map_start_pose", "map_start_at_dock")
-"""Parameters that begin with a map that was drawn before."""
+"""Parameters that begin with a map that was built before."""
 
 
 @attrs.frozen(kw_only=True)
 @described(options(), as_parameter)
 class Slam(Localizer):
-    """Localizes robots on one level without a map: each draws its own from its scans, and finds its pose on it."""
+    """Localizes robots on one level without a map: each builds its own from its scans, and finds its pose on it."""
 
     slam_toolbox: Path | None = option(
         None, help="parameter file of slam_toolbox that is read; options given here take precedence"
@@ -58,7 +58,7 @@ class Slam(Localizer):
 
     @property
     def needs_lidar(self) -> bool:
-        """It draws its map from scans."""
+        """It builds its map from scans."""
         return True
 
     def start(self, fleet: Fleet, world: World, placements: Float, seed: int) -> LocalizerSession:  # noqa: ARG002
@@ -69,7 +69,7 @@ class Slam(Localizer):
         """
         if len(world.levels) > 1:
             raise InputError(
-                f"localizer: slam draws a map of one level, and {world.name} has {len(world.levels)}",
+                f"localizer: slam builds a map of one level, and {world.name} has {len(world.levels)}",
                 hint="use ground_truth or odometry",
             )
         return SlamSession(self._settled(), fleet, placements)

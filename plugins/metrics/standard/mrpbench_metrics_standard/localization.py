@@ -1,4 +1,4 @@
-"""Errors of estimated poses, and of the maps that robots draw."""
+"""Errors of estimated poses, and of the maps that robots build."""
 
 from collections.abc import Mapping
 from typing import ClassVar
@@ -24,9 +24,9 @@ _OCCUPIED = 50
 
 @attrs.frozen(kw_only=True)
 class Localization(Metric):
-    """Measures how far estimated poses are from the true ones, and maps that robots draw from the world.
+    """Measures how far estimated poses are from the true ones, and maps that robots build from the world.
 
-    Each sample of each robot has the same weight, also those of robots that stand. Only localizers that draw maps have
+    Each sample of each robot has the same weight, also those of robots that stand. Only localizers that build maps have
     values for them. A robot's map is compared as it is, without aligning it, since robots drive by it. Doors count as
     open, and whatever stands on the map but not in the world, such as a robot that was waiting, as an error of the map.
     """
@@ -122,8 +122,8 @@ def _wrong(run: FinishedRun, size: float, centres: Float, occupied: Bool) -> Boo
     inside, index = _within(touched, centres)
     row, column = index[inside].T
     wrong: Bool = deep[row, column]
-    drawn = occupied[inside]
-    wrong[drawn] = ~near[row, column][drawn]
+    solid_there = occupied[inside]
+    wrong[solid_there] = ~near[row, column][solid_there]
     return wrong
 
 

@@ -1,4 +1,4 @@
-"""The metric `localization` on errors and maps drawn by hand."""
+"""The metric `localization` on errors and maps made by hand."""
 
 import attrs
 import numpy as np
@@ -48,7 +48,7 @@ def still(executed, robots=1, samples=2):
     return executed(range(samples), [place] * robots, [[0] * samples] * robots, [[(0.5, 0.5), (0.6, 0.5)]] * robots)
 
 
-def drawn():
+def perfect():
     """The cells i1[32,32] of a perfect map of the room: the surface of the block is occupied, its inside unknown."""
     cells = np.zeros((32, 32), "i1")
     cells[10:20, 10:20] = 100
@@ -72,18 +72,18 @@ def test_estimates_from_the_source_of_the_truth_say_nothing(executed):
 
 
 def test_a_perfect_map_has_no_error(executed):
-    values = Localization().measure(mapped(still(executed), (0, (0, 0), drawn())))
+    values = Localization().measure(mapped(still(executed), (0, (0, 0), perfect())))
     assert values["map_error"] == 0
     assert values["map_offset_m"] == pytest.approx(SIDE / 2)
     assert values["map_known_m2"] == pytest.approx((32 * 32 - 64) * SIDE**2)
 
 
 def test_a_map_that_is_shifted_by_half_a_metre_is_wrong_where_it_shows(executed):
-    values = Localization().measure(mapped(still(executed), (0, (0, 0), np.roll(drawn(), 5, axis=1))))
+    values = Localization().measure(mapped(still(executed), (0, (0, 0), np.roll(perfect(), 5, axis=1))))
     # wrong are occupied cells more than a cell right of the block, and free ones deep in its left part
-    occupied = np.roll(drawn(), 5, axis=1) == 100
+    occupied = np.roll(perfect(), 5, axis=1) == 100
     beside = occupied[:, 21:].sum()
-    deep = (np.roll(drawn(), 5, axis=1) == 0)[11:19, 11:19].sum()
+    deep = (np.roll(perfect(), 5, axis=1) == 0)[11:19, 11:19].sum()
     known = 32 * 32 - 64
     assert values["map_error"] == pytest.approx((beside + deep) / known)
     assert values["map_offset_m"] > 0.1
@@ -91,20 +91,20 @@ def test_a_map_that_is_shifted_by_half_a_metre_is_wrong_where_it_shows(executed)
 
 def test_only_the_last_state_of_each_robots_tiles_counts(executed):
     wrong = np.full((32, 32), 100, "i1")
-    run = mapped(still(executed, 2), (0, (0, 0), wrong), (1, (0, 0), drawn()), (0, (0, 0), drawn()))
+    run = mapped(still(executed, 2), (0, (0, 0), wrong), (1, (0, 0), perfect()), (0, (0, 0), perfect()))
     assert Localization().measure(run)["map_error"] == 0
-    run = mapped(still(executed, 2), (0, (0, 0), drawn()), (1, (0, 0), wrong))
+    run = mapped(still(executed, 2), (0, (0, 0), perfect()), (1, (0, 0), wrong))
     assert Localization().measure(run)["map_error"] > 0.2
 
 
 def test_cells_beyond_the_world_are_neither_right_nor_wrong(executed):
     far = (0, (320.0, 0.0), np.full((32, 32), 100, "i1"))
-    assert Localization().measure(mapped(still(executed), (0, (0, 0), drawn()), far))["map_error"] == 0
+    assert Localization().measure(mapped(still(executed), (0, (0, 0), perfect()), far))["map_error"] == 0
     assert Localization().measure(mapped(still(executed), far))["map_error"] is None
 
 
 @pytest.mark.parametrize("side", [0.0, np.nan, 1e-6, 1e9])
 def test_maps_with_cells_of_an_impossible_size_are_not_measured(executed, side):
-    values = Localization().measure(mapped(still(executed), (0, (0, 0), drawn()), side=side))
+    values = Localization().measure(mapped(still(executed), (0, (0, 0), perfect()), side=side))
     assert values["map_error"] is None
     assert values["position_max_m"] == 0

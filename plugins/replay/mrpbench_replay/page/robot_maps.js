@@ -1,8 +1,8 @@
-// The maps that robots draw, read only when the reader switches them on: that of the chosen robot, or those of all.
+// The maps that robots build, read only when the reader switches them on: that of the chosen robot, or those of all.
 
 import { decoded, lastAtMost, readArrays } from "replay/data.js";
 
-const MOST = 20; // robots whose maps are drawn together
+const MOST = 20; // robots whose maps are shown together
 const [FREE, OCCUPIED] = [0.16, 0.85]; // opacity
 
 export class RobotMaps {
