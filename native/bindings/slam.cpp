@@ -73,10 +73,11 @@ auto changed_tiles(Fleet& self, std::size_t robot) {
 }
 
 std::pair<Output, double> optimised(const Matrix<3>& poses, const Table<std::int32_t>& pairs, const Matrix<3>& measured,
-                                    const Table<double>& information, double huber) {
+                                    const Table<double>& information, double huber, std::size_t fixed) {
   const std::size_t count = measured.shape(0);
   require(pairs.shape(0) == count && pairs.shape(1) == 2, "one pair of poses for each constraint");
   require(information.shape(0) == count && information.shape(1) == 9, "one matrix for each constraint");
+  require(fixed >= 1, "at least one pose is fixed");
   std::vector<Pose> found = copy<Pose>(poses);
   std::vector<Constraint> constraints;
   for (std::size_t i = 0; i < count; ++i) {
@@ -87,7 +88,7 @@ std::pair<Output, double> optimised(const Matrix<3>& poses, const Table<std::int
     std::copy_n(information.data() + 9 * i, 9, it.information.begin());
     constraints.push_back(it);
   }
-  const double cost = optimise(found, constraints);
+  const double cost = optimise(found, constraints, fixed);
   return {array_of(found), cost};
 }
 
@@ -113,6 +114,6 @@ NB_MODULE(slam, module) {
       .def("changed_tiles", &changed_tiles, "robot"_a, nb::rv_policy::automatic);
 
   module.def("optimised", &optimised, "poses"_a, "pairs"_a, "measured"_a, "information"_a, nb::kw_only(),
-             "huber"_a = 0.0, nb::rv_policy::automatic);
+             "huber"_a = 0.0, "fixed"_a = 1, nb::rv_policy::automatic);
   module.def("options", [] { return parameters(Parameters::description()); });
 }

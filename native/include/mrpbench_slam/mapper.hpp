@@ -33,6 +33,7 @@ class Mapper {
 
   /// The poses of all scans in the frame of the map.
   const std::vector<Pose>& poses() const { return poses_; }
+  /// Number of loops that have moved poses.
   std::size_t loops() const { return loops_; }
 
   /// Bring the map up to date, and return the tiles of the map that differ from those of the last call.

@@ -22,8 +22,9 @@ struct Constraint {
 /// Half of the sum of the losses of all constraints.
 double cost_of(const std::vector<Pose>& poses, const std::vector<Constraint>& constraints);
 
-/// Move the poses, apart from the first, so that the cost is least; returns the cost. The equations are solved by
-/// Cholesky's decomposition within their envelope, which in the order of time is narrow except in the rows of loops.
-double optimise(std::vector<Pose>& poses, const std::vector<Constraint>& constraints);
+/// Move the poses, apart from the first `fixed` ones, so that the cost is least; returns the cost. The equations are
+/// solved by Cholesky's decomposition within their envelope, which in the order of time is narrow except in the rows of
+/// loops.
+double optimise(std::vector<Pose>& poses, const std::vector<Constraint>& constraints, std::size_t fixed = 1);
 
 }  // namespace mrpbench::slam

@@ -41,7 +41,7 @@ class Fleet:
     def scan_poses(self, robot: int) -> NDArray[np.float64]:
         """Poses f8[k,3] in `map` of the scans of one robot, as the graph has them now."""
     def loops(self, robot: int) -> int:
-        """Number of loops that one robot has closed."""
+        """Number of loops that have moved the poses of one robot."""
     def changed_tiles(self, robot: int) -> tuple[NDArray[np.int32], NDArray[np.int8]]:
         """What has changed in one robot's map since the last call: indices i4[k,2] and cells i1[k,TILE,TILE] of tiles.
 
@@ -56,12 +56,13 @@ def optimised(
     information: NDArray[np.float64],
     *,
     huber: float = 0.0,
+    fixed: int = 1,
 ) -> tuple[NDArray[np.float64], float]:
-    """Return the poses f8[n,3] that fit relative poses best, the first as it is, and half of the sum of the losses.
+    """Return the poses f8[n,3] that fit relative poses best, and half of the sum of the losses.
 
     Constraint i says that pose `pairs[i, 1]` is at `measured[i]` f8[3] in the frame of pose `pairs[i, 0]`, with
     the information matrix `information[i]` f8[9] (row by row). Errors beyond `huber` standard deviations count
-    linearly; 0 = all count by their squares.
+    linearly; 0 = all count by their squares. The first `fixed` poses stay, at least one.
     """
 
 def options() -> list[Option]:

@@ -10,6 +10,8 @@ constexpr std::size_t kFewest = 10;
 constexpr double kOdometryPlace = 0.02, kOdometryTurn = 0.04;
 /// A loop is searched for within this distance, and this share of the way since the earlier submap.
 constexpr double kSearch = 0.25, kDrift = 0.01;
+/// Scans that a loop moves: what was built before the last ones stays, so that the time of a loop has a bound.
+constexpr std::size_t kMoving = 400;
 /// Scans after a closed loop before the next search.
 constexpr std::size_t kPause = 3;
 /// Deviations from which on the error of a loop counts linearly.
@@ -136,7 +138,7 @@ const Mapper::Earlier* Mapper::nearest_earlier() const {
 
 void Mapper::close_loop() {
   const std::size_t last = poses_.size() - 1;
-  if (loops_ > 0 && last - last_loop_ <= kPause) return;
+  if (last_loop_ > 0 && last - last_loop_ <= kPause) return;
   const Scan& scan = scans_.back();
   const Earlier* found = nearest_earlier();
   if (found == nullptr || scan.returns.size() < kFewest) return;
@@ -156,12 +158,14 @@ void Mapper::close_loop() {
   const Match fine = refined(earlier.submap.field(), scan, coarse->pose, predicted, keeping);
   const double response = response_of(earlier.search->field(), scan, fine.pose);
   if (response < parameters_.loop_match_minimum_response_fine) return;
-  Information information = information_of(earlier.submap.field(), scan, fine.pose);
+  const Information information = information_of(earlier.submap.field(), scan, fine.pose);
   if (known_along(information) < kLeastAlong) return;
+  last_loop_ = last;
+  const Pose off = relative(predicted, fine.pose);
+  if (std::hypot(off.x, off.y) + scan.reach() * std::abs(off.yaw) <= parameters_.resolution) return;  // it is closed
   constraints_.push_back({earlier.first, last, relative(local_[earlier.first], fine.pose), information, kHuber});
   ++loops_;
-  last_loop_ = last;
-  optimise(poses_, constraints_);
+  optimise(poses_, constraints_, std::max<std::size_t>(1, poses_.size() - std::min(poses_.size(), kMoving)));
 }
 
 std::vector<Tile> Mapper::changed_tiles() {

@@ -10,6 +10,7 @@ int tile_of(int cell) {
 
 /// Metres by which the farthest end of a scan moves from one pose to another, at most.
 double moved(const Scan& scan, Pose before, Pose after) {
+  if (before.x == after.x && before.y == after.y && before.yaw == after.yaw) return 0;
   double reach = 0;
   for (const auto* ends : {&scan.hits, &scan.misses}) {
     for (const Point& it : *ends) reach = std::max(reach, sim::length(it));

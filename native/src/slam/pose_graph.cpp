@@ -51,8 +51,8 @@ Loss loss_of(double squares, double huber) {
   return {huber * (size - 0.5 * huber), huber / size};
 }
 
-/// The rows of each node begin at the first node that it has a constraint with.
-Envelope envelope_of(std::size_t nodes, const std::vector<Constraint>& constraints) {
+/// The rows of each node begin at the first free node that it has a constraint with.
+Envelope envelope_of(std::size_t nodes, const std::vector<Constraint>& constraints, std::size_t fixed) {
   std::vector<std::size_t> first(nodes);
   for (std::size_t i = 0; i < nodes; ++i) first[i] = i;
   for (const Constraint& it : constraints) {
@@ -60,16 +60,16 @@ Envelope envelope_of(std::size_t nodes, const std::vector<Constraint>& constrain
     first[high] = std::min(first[high], low);
   }
   std::vector<std::size_t> rows;
-  for (std::size_t i = 1; i < nodes; ++i) {  // the first node is fixed
-    for (int k = 0; k < 3; ++k) rows.push_back(3 * (std::max<std::size_t>(first[i], 1) - 1));
+  for (std::size_t i = fixed; i < nodes; ++i) {
+    for (int k = 0; k < 3; ++k) rows.push_back(3 * (std::max(first[i], fixed) - fixed));
   }
   return Envelope(std::move(rows));
 }
 
-/// Add `left' W right` to the block of two nodes; only the lower half of the matrix is kept.
+/// Add `left' W right` to the block of two free nodes; only the lower half of the matrix is kept.
 void add_block(Envelope& matrix, std::size_t row, std::size_t column, const double (&left)[9], const double (&right)[9],
                const Information& weight) {
-  if (row == 0 || column == 0 || row < column) return;
+  if (row < column) return;
   double half[9] = {};
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
@@ -81,23 +81,23 @@ void add_block(Envelope& matrix, std::size_t row, std::size_t column, const doub
       if (row == column && j > i) continue;
       double sum = 0;
       for (std::size_t k = 0; k < 3; ++k) sum += half[3 * i + k] * right[3 * k + j];
-      matrix.at(3 * (row - 1) + i, 3 * (column - 1) + j) += sum;
+      matrix.at(3 * row + i, 3 * column + j) += sum;
     }
   }
 }
 
 void add_gradient(std::vector<double>& right, std::size_t node, const double (&by)[9], const double (&weighted)[3]) {
-  if (node == 0) return;
   for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t k = 0; k < 3; ++k) right[3 * (node - 1) + i] -= by[3 * k + i] * weighted[k];
+    for (std::size_t k = 0; k < 3; ++k) right[3 * node + i] -= by[3 * k + i] * weighted[k];
   }
 }
 
-void linearise(const std::vector<Pose>& poses, const std::vector<Constraint>& constraints, Envelope& matrix,
-               std::vector<double>& right) {
+void linearise(const std::vector<Pose>& poses, const std::vector<Constraint>& constraints, std::size_t fixed,
+               Envelope& matrix, std::vector<double>& right) {
   matrix.clear();
   std::fill(right.begin(), right.end(), 0.0);
   for (const Constraint& it : constraints) {
+    if (it.from < fixed && it.to < fixed) continue;
     const Error e = error_of(poses[it.from], poses[it.to], it);
     Information weight = it.information;
     const double factor = loss_of(squared(e.value, it.information), it.huber).weight;
@@ -106,12 +106,20 @@ void linearise(const std::vector<Pose>& poses, const std::vector<Constraint>& co
     for (std::size_t i = 0; i < 3; ++i) {
       for (std::size_t j = 0; j < 3; ++j) weighted[i] += weight[3 * i + j] * e.value[j];
     }
-    add_block(matrix, it.from, it.from, e.by_from, e.by_from, weight);
-    add_block(matrix, it.to, it.to, e.by_to, e.by_to, weight);
-    add_block(matrix, it.to, it.from, e.by_to, e.by_from, weight);
-    add_block(matrix, it.from, it.to, e.by_from, e.by_to, weight);
-    add_gradient(right, it.from, e.by_from, weighted);
-    add_gradient(right, it.to, e.by_to, weighted);
+    const bool moves_from = it.from >= fixed, moves_to = it.to >= fixed;
+    const std::size_t from = it.from - fixed, to = it.to - fixed;
+    if (moves_from) {
+      add_block(matrix, from, from, e.by_from, e.by_from, weight);
+      add_gradient(right, from, e.by_from, weighted);
+    }
+    if (moves_to) {
+      add_block(matrix, to, to, e.by_to, e.by_to, weight);
+      add_gradient(right, to, e.by_to, weighted);
+    }
+    if (moves_from && moves_to) {
+      add_block(matrix, to, from, e.by_to, e.by_from, weight);
+      add_block(matrix, from, to, e.by_from, e.by_to, weight);
+    }
   }
 }
 
@@ -126,21 +134,21 @@ double cost_of(const std::vector<Pose>& poses, const std::vector<Constraint>& co
   return sum;
 }
 
-double optimise(std::vector<Pose>& poses, const std::vector<Constraint>& constraints) {
+double optimise(std::vector<Pose>& poses, const std::vector<Constraint>& constraints, std::size_t fixed) {
   double cost = cost_of(poses, constraints), damping = 1e-6;
-  if (poses.size() < 2) return cost;
-  Envelope matrix = envelope_of(poses.size(), constraints);
+  if (poses.size() <= fixed) return cost;
+  Envelope matrix = envelope_of(poses.size(), constraints, fixed);
   std::vector<double> right(matrix.size());
   std::vector<Pose> moved = poses;
   for (int step = 0; step < kMostSteps; ++step) {
-    linearise(poses, constraints, matrix, right);
+    linearise(poses, constraints, fixed, matrix, right);
     for (std::size_t i = 0; i < matrix.size(); ++i) matrix.at(i, i) += damping * matrix.at(i, i) + 1e-12;
     double largest = 0;
     double found = cost;
     if (matrix.decompose()) {
       matrix.solve(right);
-      for (std::size_t i = 1; i < poses.size(); ++i) {
-        const double* move = right.data() + 3 * (i - 1);
+      for (std::size_t i = fixed; i < poses.size(); ++i) {
+        const double* move = right.data() + 3 * (i - fixed);
         moved[i] = {poses[i].x + move[0], poses[i].y + move[1], wrapped(poses[i].yaw + move[2])};
         for (int k = 0; k < 3; ++k) largest = std::max(largest, std::abs(move[k]));
       }
@@ -152,7 +160,7 @@ double optimise(std::vector<Pose>& poses, const std::vector<Constraint>& constra
       continue;
     }
     const double gained = cost - found;
-    std::copy(moved.begin() + 1, moved.end(), poses.begin() + 1);
+    poses = moved;
     cost = found;
     damping *= 0.1;
     if (largest < kStill || gained < kImprovement * (cost + kImprovement)) break;
