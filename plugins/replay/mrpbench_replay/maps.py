@@ -22,7 +22,7 @@ def pack_maps(recording: Recording, packing: Packing, tiles: int = TILES) -> dic
     if not recording.channels.keys() >= CHANNELS:
         return None
     side = recording.channel("map_side")
-    if not len(side) or not (np.isfinite(side) & (side > 0)).all():
+    if not len(side):
         return None
     time, robot = recording.channel("map_time"), recording.channel("map_robot")
     place = np.rint(recording.channel("map_corner") / side[:, None]).astype(np.int64)

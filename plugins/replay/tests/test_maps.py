@@ -1,5 +1,4 @@
 import numpy as np
-import pytest
 from mrpbench_replay.maps import pack_maps
 from mrpbench_replay.packing import Packing
 
@@ -54,9 +53,3 @@ def test_a_recording_without_maps_has_none(store, chunk):
     empty = {name: values[:0] for name, values in tiles([(0.0, 0, 0, 0, 0)]).items()}
     assert pack_maps(store(chunk | empty), packing) is None
     assert not packing.layout
-
-
-@pytest.mark.parametrize("side", [0.0, np.nan, -1.0])
-def test_cells_of_an_impossible_size_are_not_shown(store, chunk, side):
-    channels = tiles([(0.0, 0, 0, 0, 0)])
-    assert pack_maps(store(chunk | channels | {"map_side": np.array([side])}), Packing()) is None
