@@ -3,6 +3,7 @@
 The bounds are about one and a half times what was measured; `benchmarks/localizers.py` prints the figures.
 """
 
+import attrs
 import numpy as np
 import pytest
 from mrpbench_localizers_slam import Slam
@@ -10,8 +11,11 @@ from mrpbench_localizers_slam import Slam
 import mrpbench_core
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.common.poses import composed
+from mrpbench_core.model.execution.observation import Odometry
 from mrpbench_core.model.worlds.world import Level, World
 from mrpbench_core.store.recording import Recording
+from mrpbench_core.testing.fixtures.room import fleet, room
 
 STUDY = {
     "scenario": {"plugin": "random", "robots": 3},
@@ -66,6 +70,18 @@ def test_maps_are_recorded_and_the_same_in_any_process(tmp_path):
     times = next(rows for (_, name), rows in one.items() if name == "map_time")
     assert set(np.unique(times)) == {0.0, 5.0, 10.0, 15.0, 20.0}
     assert set(np.unique(cells)) == {-1, 0, 100}
+
+
+def test_a_robot_without_a_lidar_follows_its_odometry():
+    robots = fleet(1)
+    blind = attrs.evolve(robots, robots=(attrs.evolve(robots.robots[0], lidar=None),))
+    start = np.array([[2.0, 2.0, 0.3]])
+    session = Slam().start(blind, room(), start, 0)
+    for step in range(3):
+        moved = Odometry(pose=np.array([[0.1 * step, 0.0, 0.0]]), twist=np.zeros((1, 2)))
+        estimate = session.update(step * 0.05, moved, (), None)
+    assert np.allclose(estimate.pose, composed(start, np.array([[0.2, 0.0, 0.0]])))
+    assert not len(session.map_changes(0.1, True)["map_cells"])
 
 
 def test_a_world_of_several_levels_is_refused():
