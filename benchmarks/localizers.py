@@ -1,7 +1,9 @@
-"""Measure the errors of localizers in runs of the whole engine, and the time of an update of `amcl`.
+"""Measure the errors of localizers in runs of the whole engine, and their costs.
 
 Errors are over four robots and three scenarios of 60 simulated seconds on each built-in world, with noisy lidars and
-odometry. Costs are of one thread: the time of a whole session divided by the filter updates that it made.
+odometry. Costs are of one thread: the time of a whole session divided by the filter updates that it made. The cost of
+`slam` is the CPU time of a session on the odometry and the scans of recorded runs, with the maps that it would record,
+as a share of that of `amcl` on the same.
 """
 
 import argparse
@@ -11,14 +13,16 @@ from pathlib import Path
 
 import numpy as np
 from mrpbench_localizers_amcl import Amcl
+from mrpbench_localizers_slam import Slam
 from mrpbench_simulators_planar import Planar
 from mrpbench_worlds_standard.shipped import Office
 
 import mrpbench_core
+from mrpbench_core.api import Localizer
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.common.poses import wrapped
-from mrpbench_core.model.execution.observation import Odometry
+from mrpbench_core.model.execution.observation import Odometry, ScanBatch
 from mrpbench_core.model.execution.state import Inputs
 from mrpbench_core.store.recording import Recording
 
@@ -33,6 +37,8 @@ LOCALIZERS = {
         "laser_model_type": "likelihood_field_prob",
         **ALPHAS,
     },
+    "slam": "slam",
+    "slam, without loops": {"plugin": "slam", "do_loop_closing": False},
 }
 
 
@@ -84,6 +90,49 @@ def cost(robots: int, localizer: Amcl, seconds: float = 20.0, period: float = 0.
     return spent / updates * 1e6
 
 
+def spent(recording: Recording, localizer: Localizer) -> float:
+    """CPU seconds of a session on the odometry and scans of a recorded run."""
+    context = recording.first_context()
+    session = localizer.start(context.fleet, context.world, recording.channel("truth")[0], 0)
+    time_s, rows = recording.channel("time"), recording.channel("odometry")
+    robot, ranges = recording.channel("scan_robot"), recording.channel("scan_ranges").astype(float)
+    first = np.searchsorted(recording.channel("scan_time"), [-1.0, *(time_s + 1e-9)])
+    total = 0.0
+    for step, now in enumerate(time_s.tolist()):
+        new = slice(first[step], first[step + 1])
+        scans = [ScanBatch(stamp=now, robot=robot[new].astype(np.int32), ranges=ranges[new])] if len(robot[new]) else []
+        odometry = Odometry(pose=rows[step, :, :3].copy(), twist=rows[step, :, 3:].copy())
+        began = time.process_time()
+        session.update(now, odometry, scans, None)
+        session.map_changes(now, step == len(time_s) - 1)
+        total += time.process_time() - began
+    return total
+
+
+def share(world: str, rounds: int = 3) -> float:
+    """CPU time of `slam` as a share of that of `amcl`, both with their defaults, in turns on the same runs."""
+    with tempfile.TemporaryDirectory() as folder:
+        study = {
+            "world": world,
+            "scenario": {"plugin": "random", "robots": 6},
+            "assigner": "identity",
+            "planner": "prioritized",
+            "simulator": "planar",
+            "localizer": "amcl",
+            "noise": NOISE,
+            "metrics": [],
+            "recording": {"scans": True, "rate": 20},
+            "matrix": {"seed": "0..2"},
+        }
+        mrpbench_core.run(study, out=folder)
+        totals = np.zeros(2)
+        for file in sorted(Path(folder).rglob("recordings/*.zip")) * rounds:
+            recording = Recording(file)
+            totals += [spent(recording, Slam()), spent(recording, Amcl())]
+            recording.close()
+    return float(totals[0] / totals[1])
+
+
 def main() -> None:
     """Measure the rows and print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -107,6 +156,8 @@ def main() -> None:
     ):
         shown = ", ".join(f"{cost(robots, localizer):.0f} µs with {robots}" for robots in (1, 9, 100))
         print(f"one update, {name}: {shown} robots")
+    for world in options.worlds:
+        print(f"{world:<10} CPU time of slam / amcl: {share(world):.2f}")
 
 
 if __name__ == "__main__":

@@ -15,11 +15,11 @@ import maps
 import numpy as np
 from bundles import bundles, read_bundle
 from containers import in_zip, mutate_database, mutate_mcap
-from examples import RUN, bags, example, recording, records, scenarios
 from mrpbench_analysis.observed_run import Sampling, observe, observe_recording
 from mrpbench_controllers_dwb.dwb import Dwb
 from mrpbench_exporters_rosbag2 import Rosbag2
 from mrpbench_localizers_amcl import Amcl
+from mrpbench_localizers_slam import Slam
 from mrpbench_metrics_standard import execution, people, planning
 from mrpbench_planners_external.outputs import READERS as OUTPUTS
 from mrpbench_planners_external.outputs import UnreadableError
@@ -27,6 +27,7 @@ from mrpbench_replay.write_page import write_page
 from mrpbench_worlds_standard.rmf import Rmf
 from mutation import Mutate, mutate_bytes, mutate_npy, mutate_text
 
+from examples import RUN, bags, example, recording, records, scenarios
 from mrpbench_core.builtin.task_sources.trace import read_arrivals
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.processes.slots import slots_of_this_process
@@ -207,6 +208,7 @@ def read_nav2(file: Path) -> None:
     for read in (
         lambda: Dwb(nav2=file).start(robot, world, 0.05),
         lambda: Amcl(nav2=file).start(Fleet(robots=(robot,)), world, np.zeros((1, 3)), 0),
+        lambda: Slam(slam_toolbox=file).start(Fleet(robots=(robot,)), world, np.zeros((1, 3)), 0),
     ):
         try:
             read()
@@ -245,6 +247,7 @@ def urdfs() -> list[bytes]:
     return [f'<robot name="cart"><link name="base"/><link name="axle"/>{above}\n{parts}</robot>'.encode()]
 
 
+SLAM = b"slam_toolbox:\n  ros__parameters:\n    resolution: 0.05\n    mode: mapping\n    submap_scans: 20\n"
 AMCL = b"amcl:\n  ros__parameters:\n    alpha1: 0.2\n    max_beams: 60\n    laser_model_type: likelihood_field\n"
 
 
@@ -316,7 +319,7 @@ READERS = {
             name="nav2",
             file="nav2.yaml",
             read=read_nav2,
-            seeds=lambda: [nav2 + AMCL for nav2 in _files("plugins/controllers/dwb/tests/nav2_params.yaml")()],
+            seeds=lambda: [nav2 + AMCL + SLAM for nav2 in _files("plugins/controllers/dwb/tests/nav2_params.yaml")()],
         ),
         Reader(
             name="robots",

@@ -40,6 +40,7 @@ INSTRUMENTED = (
     "mrpbench_exporters_rosbag2",
     "mrpbench_controllers_dwb",
     "mrpbench_localizers_amcl",
+    "mrpbench_localizers_slam",
 )
 
 

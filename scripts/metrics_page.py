@@ -15,6 +15,7 @@ FOLDER = ROOT / "docs/reference/metrics"
 STAGES = {
     "planning": ("Planning", ("planning",)),
     "dispatching": ("Dispatching", ("delay", "draws", "waiting", "deadlock")),
+    "localization": ("Localisation", ("localization",)),
     "control": ("Control and safety", ("clearance", "contact", "smoothness", "stops", "tracking", "barn")),
     "execution": ("Execution as a whole", ("execution", "throughput", "efficiency", "fairness")),
     "tasks": ("Tasks over time", ("tasks",)),

@@ -36,6 +36,7 @@ RUNS_PER_PLANNER = {
     "bodies": 324,
     "policies": 80,
     "paper": 648,
+    "slam": 100,
 }
 """Runs of each planner that is installed."""
 PLANNERS = {

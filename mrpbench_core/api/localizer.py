@@ -8,6 +8,7 @@ from mrpbench_core.api.component import Component
 from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.observation import Estimate, Odometry, ScanBatch
+from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.model.worlds.world import World
 
 
@@ -17,6 +18,14 @@ class LocalizerSession(ABC):
     @abstractmethod
     def update(self, now: float, odometry: Odometry, scans: Sequence[ScanBatch], truth: Float | None) -> Estimate:
         """Return pose estimates in `map`. `truth` f8[n,3] is None unless the recipe declares `needs_truth`."""
+
+    def map_changes(self, now: float, last: bool) -> Chunk:  # noqa: ARG002 - by default there are no maps
+        """Return the tiles of robots' maps that changed, as rows of the channels `map_...`; {} = none to record now.
+
+        `map_corner` is the lower left corner of a tile in `map`, `map_side` that of its cells, metres. `map_cells`
+        has the values of `nav_msgs/OccupancyGrid`, row by row from there: -1 = unknown, 0 = free to 100 = occupied.
+        """
+        return {}
 
 
 class Localizer(Component):

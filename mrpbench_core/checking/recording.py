@@ -28,6 +28,18 @@ class Layout:
 
 _FLOAT = {"truth": 3, "truth_twist": 2, "estimate": 3, "odometry": 5, "command": 2}
 """Numbers for each robot and sample; other periodic channels have one."""
+_SCALARS = {
+    "contact": {"f": "force"},
+    "scan": {"iu": "robot"},
+    "trajectory": {"iu": "robot chosen", "f": "cost"},
+    "critic": {"iu": "robot", "U": "name", "f": "score"},
+    "route": {"iu": "revision robot segment level edge leave", "f": "speed"},
+    "errand": {"iu": "task number level", "f": "service deadline", "i": "priority"},
+    "task": {"i": "index robot errand", "U": "event"},
+    "event": {"U": "kind detail", "i": "robot"},
+    "map": {"iu": "robot", "f": "side"},
+}
+"""Channels with one number or text for each row, by the first part of their names and the kinds of their types."""
 LAYOUTS: Mapping[str, Layout] = {
     "time": Layout("f", "time"),
     **{name: Layout("f", "time", (ROBOTS, width)) for name, width in _FLOAT.items()},
@@ -37,44 +49,25 @@ LAYOUTS: Mapping[str, Layout] = {
     "mover": Layout("f", "time", (MOVERS, 5)),
     "mover_level": Layout("iu", "time", (MOVERS,)),
     "mover_arrivals": Layout("i", "time", (MOVERS,)),
-    "contact_time": Layout("f", "contact_time"),
-    "contact": Layout("i", "contact_time", (2,)),
-    "contact_force": Layout("f", "contact_time"),
-    "scan_time": Layout("f", "scan_time"),
-    "scan_robot": Layout("iu", "scan_time"),
-    "scan_ranges": Layout("f", "scan_time", (ANY,)),
-    "trajectory_time": Layout("f", "trajectory_time"),
-    **{f"trajectory_{name}": Layout("iu", "trajectory_time") for name in ("robot", "chosen")},
-    "trajectory_cost": Layout("f", "trajectory_time"),
-    "trajectory_pose": Layout("f", "trajectory_time", (ANY, 3)),
-    "critic_time": Layout("f", "critic_time"),
-    "critic_robot": Layout("iu", "critic_time"),
-    "critic_name": Layout("U", "critic_time"),
-    "critic_score": Layout("f", "critic_time"),
-    "route_time": Layout("f", "route_time"),
+    **{f"{axis}_time": Layout("f", f"{axis}_time") for axis in _SCALARS},
     **{
-        f"route_{name}": Layout("iu", "route_time")
-        for name in ("revision", "robot", "segment", "level", "edge", "leave")
+        f"{axis}_{name}": Layout(kinds, f"{axis}_time")
+        for axis, columns in _SCALARS.items()
+        for kinds, names in columns.items()
+        for name in names.split()
     },
+    "contact": Layout("i", "contact_time", (2,)),
+    "scan_ranges": Layout("f", "scan_time", (ANY,)),
+    "trajectory_pose": Layout("f", "trajectory_time", (ANY, 3)),
     "route_waypoint": Layout("f", "route_time", (3,)),
-    "route_speed": Layout("f", "route_time"),
-    "errand_time": Layout("f", "errand_time"),
-    **{f"errand_{name}": Layout("iu", "errand_time") for name in ("task", "number", "level")},
     "errand_goal": Layout("f", "errand_time", (3,)),
-    **{f"errand_{name}": Layout("f", "errand_time") for name in ("service", "deadline")},
-    "errand_priority": Layout("i", "errand_time"),
-    "task_time": Layout("f", "task_time"),
-    **{f"task_{name}": Layout("i", "task_time") for name in ("index", "robot", "errand")},
-    "task_event": Layout("U", "task_time"),
+    "map_corner": Layout("f", "map_time", (2,)),
+    "map_cells": Layout("i", "map_time", (ANY, ANY)),
     "draw": Layout("iu", "draw"),
     **{f"draw_{name}": Layout("f", "draw", (ROBOTS,)) for name in ("arrival", "waiting")},
-    "event_time": Layout("f", "event_time"),
-    "event_kind": Layout("U", "event_time"),
-    "event_robot": Layout("i", "event_time"),
-    "event_detail": Layout("U", "event_time"),
 }
 _LEAST_ROBOT = {
-    **dict.fromkeys(("scan_robot", "route_robot", "trajectory_robot", "critic_robot"), 0),
+    **dict.fromkeys(("scan_robot", "route_robot", "trajectory_robot", "critic_robot", "map_robot"), 0),
     **dict.fromkeys(("event_robot", "task_robot"), -1),
 }
 """The least index in channels that name robots; -1 = none."""
@@ -157,15 +150,15 @@ def check_channel(name: str, rows: NDArray[Any], time: NDArray[Any], robots: int
         return f"{name} names a robot that does not exist"
     if name in ("released", "reached", "cleared", "level", "route_level", "route_revision") and (rows < 0).any():
         return f"{name} is negative"
-    if name == "speed_limit" and not (rows > 0).all():
-        return "speed_limit is not above 0"
+    if name in ("speed_limit", "map_side") and not (rows > 0).all():
+        return f"{name} is not above 0"
     if name in (*_FLOAT, "facility", "mover", "route_waypoint") and (np.abs(rows) > LARGEST).any():
         return f"{name} is not finite"
-    return _of_trajectories(name, rows)
+    return _of_trajectories_or_maps(name, rows)
 
 
-def _of_trajectories(name: str, rows: NDArray[Any]) -> str | None:
-    """What is wrong with the numbers of a channel of trajectories."""
+def _of_trajectories_or_maps(name: str, rows: NDArray[Any]) -> str | None:
+    """What is wrong with the numbers of a channel of trajectories or maps."""
     if name == "trajectory_pose" and not rows.shape[1]:
         return "trajectory_pose has no poses"
     if name == "trajectory_chosen" and (rows > 1).any() | (rows < 0).any():
@@ -174,8 +167,8 @@ def _of_trajectories(name: str, rows: NDArray[Any]) -> str | None:
         return "trajectory_cost is -inf"
     if name == "critic_score" and not np.isfinite(rows).all():
         return "critic_score is not finite"
-    if name == "trajectory_pose" and not (np.abs(rows) <= LARGEST).all():
-        return "trajectory_pose is not finite"
+    if name in ("trajectory_pose", "map_corner", "map_side") and not (np.abs(rows) <= LARGEST).all():
+        return f"{name} is not finite"
     return None
 
 

@@ -13,13 +13,14 @@ from numpy.typing import NDArray
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.checking.covariances import check_covariances
-from mrpbench_core.checking.recording import LARGEST
+from mrpbench_core.checking.recording import LARGEST, axis_of, check_channel, check_names
 from mrpbench_core.model.common.arrays import Float, Int, Int16, Int32, frozen_array
 from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.observation import Estimate, ScanBatch
 from mrpbench_core.model.execution.orders import BatchOrders, Orders
 from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.scenario import MOST_ROBOTS, Scenario, Task
+from mrpbench_core.model.runs.recording import Chunk
 from mrpbench_core.plugins.kinds import kind_of
 
 T = TypeVar("T")
@@ -158,6 +159,15 @@ class ContractChecks:
             if fault is not None:
                 _refuse("the localizer", fault)
         return estimate
+
+    def maps(self, changes: Chunk) -> Chunk:
+        """Check what a localizer says about its maps."""
+        faults: list[str | None] = [f"has {name}" for name in changes if axis_of(name) != "map_time"]
+        faults += check_names(changes) if not faults else []
+        faults += [check_channel(*row, changes["map_time"], self._robots) for row in changes.items() if not faults]
+        for fault in filter(None, faults):
+            _refuse("the localizer", f"changes of maps: {fault}")
+        return changes
 
     def orders(self, orders: Orders) -> Orders:
         """Check the orders that a dispatcher returns."""

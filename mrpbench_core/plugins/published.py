@@ -16,7 +16,7 @@ _MPPI_CRITICS = (
 )
 _METRICS = (
     *("planning", "execution", "barn", "clearance", "contact", "deadlock", "delay", "draws", "efficiency"),
-    *("fairness", "people", "smoothness", "stops", "tasks", "throughput", "tracking", "waiting"),
+    *("fairness", "localization", "people", "smoothness", "stops", "tasks", "throughput", "tracking", "waiting"),
 )
 _PLANNERS = (
     *("astar", "prioritized", "cbs", "ecbs", "eecbs", "cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"),
@@ -34,7 +34,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.critics": _CRITICS,
         "mrpbench.crowds": ("carts", "dynabarn", "orca", "scripted", "social_force"),
         "mrpbench.dispatchers": ("btpg", "gses", "sadg"),
-        "mrpbench.localizers": ("amcl",),
+        "mrpbench.localizers": ("amcl", "slam"),
         "mrpbench.metrics": _METRICS,
         "mrpbench.mppi_critics": _MPPI_CRITICS,
         "mrpbench.navigators": ("waypoints",),

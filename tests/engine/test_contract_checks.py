@@ -23,6 +23,13 @@ STATE = State(
 )
 SCAN = ScanBatch(stamp=1.0, robot=[1], ranges=[[1.0, np.inf]])
 ESTIMATE = Estimate(pose=np.zeros((2, 3)))
+MAPS = {
+    "map_time": np.zeros(1),
+    "map_robot": np.zeros(1, "i4"),
+    "map_corner": np.zeros((1, 2)),
+    "map_side": np.full(1, 0.05),
+    "map_cells": np.zeros((1, 4, 4), "i1"),
+}
 ORDERS = Orders(released=[2, 1])
 MOTION = Motion(twist=np.zeros((2, 2)), reached=[1, 1], cleared=[2, 0], mode=[0, 4])
 
@@ -38,6 +45,8 @@ def test_what_keeps_the_contract_goes_through():
     for check, given in (
         (checked.state, STATE),
         (checked.estimate, ESTIMATE),
+        (checked.maps, MAPS),
+        (checked.maps, {}),
         (checked.orders, ORDERS),
         (checked.motion, MOTION),
     ):
@@ -133,6 +142,25 @@ def covariance(**entries):
     for places, value in entries.items():
         found[(0, *map("xyt".index, places))] = value
     return found
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"truth": np.zeros((1, 2, 3))}, "has truth"),
+        ({"map_robot": np.array([2], "i4")}, "map_robot names a robot that does not exist"),
+        ({"map_cells": np.zeros((2, 4, 4), "i1")}, "map_cells has shape"),
+        ({"map_side": np.zeros(1)}, "map_side is not above 0"),
+    ],
+)
+def test_wrong_maps_are_refused(changes, message):
+    with pytest.raises(BrokenContractError, match=f"the localizer returned changes of maps: {message}"):
+        checks().maps(MAPS | changes)
+
+
+def test_maps_without_one_of_their_channels_are_refused():
+    with pytest.raises(BrokenContractError, match="has no channel map_side"):
+        checks().maps({name: rows for name, rows in MAPS.items() if name != "map_side"})
 
 
 @pytest.mark.parametrize(

@@ -296,6 +296,7 @@ class ExecutionLoop(ControlLoop):
         """Record this control period, and show it to hooks."""
         inputs, now, state, observation = self._inputs, self._now, self._state, self._observation
         recorder.scans(observation.scans)
+        recorder.maps(self._checks.maps(self._localizer.map_changes(now, last)))
         if inputs.evaluations is not None:
             recorder.evaluations(now, inputs.evaluations.take())
         if inputs.delays:

@@ -31,53 +31,33 @@ SCANS = 4096
 """Scans per chunk: a thousand robots take that many in a second."""
 
 IRREGULAR: dict[str, tuple[str, tuple[int, ...]]] = {
-    "contact_time": ("f8", ()),
+    **dict.fromkeys(("contact_time", "contact_force", "route_time", "route_speed", "event_time"), ("f8", ())),
+    **dict.fromkeys(("route_revision", "route_robot", "route_segment", "route_edge", "event_robot"), ("i4", ())),
+    **dict.fromkeys(("event_kind", "event_detail"), ("U1", ())),
     "contact": ("i4", (2,)),
-    "contact_force": ("f8", ()),
-    "route_time": ("f8", ()),
-    "route_revision": ("i4", ()),
-    "route_robot": ("i4", ()),
-    "route_segment": ("i4", ()),
     "route_waypoint": ("f8", (3,)),
     "route_level": ("i2", ()),
-    "route_speed": ("f8", ()),
-    "route_edge": ("i4", ()),
     "route_leave": ("i8", ()),
-    "event_time": ("f8", ()),
-    "event_kind": ("U1", ()),
-    "event_robot": ("i4", ()),
-    "event_detail": ("U1", ()),
 }
 """Channels that may stay empty, which is not the same as missing."""
 
 
 TASKS: dict[str, tuple[str, tuple[int, ...]]] = {
-    "errand_time": ("f8", ()),
-    "errand_task": ("i4", ()),
-    "errand_number": ("i4", ()),
+    **dict.fromkeys(("errand_time", "errand_service", "errand_deadline", "task_time"), ("f8", ())),
+    **dict.fromkeys(("errand_task", "errand_number", "errand_priority"), ("i4", ())),
+    **dict.fromkeys(("task_index", "task_robot", "task_errand"), ("i4", ())),
     "errand_goal": ("f8", (3,)),
     "errand_level": ("i2", ()),
-    "errand_service": ("f8", ()),
-    "errand_deadline": ("f8", ()),
-    "errand_priority": ("i4", ()),
-    "task_time": ("f8", ()),
-    "task_index": ("i4", ()),
     "task_event": ("U1", ()),
-    "task_robot": ("i4", ()),
-    "task_errand": ("i4", ()),
 }
 """The same, where tasks come over time."""
 
 TRAJECTORY: dict[str, tuple[str, tuple[int, ...]]] = {
-    "trajectory_time": ("f8", ()),
-    "trajectory_robot": ("i4", ()),
+    **dict.fromkeys(("trajectory_time", "trajectory_cost", "critic_time", "critic_score"), ("f8", ())),
+    **dict.fromkeys(("trajectory_robot", "critic_robot"), ("i4", ())),
     "trajectory_chosen": ("u1", ()),
-    "trajectory_cost": ("f8", ()),
     "trajectory_pose": ("f4", (POSES, 3)),
-    "critic_time": ("f8", ()),
-    "critic_robot": ("i4", ()),
     "critic_name": ("U1", ()),
-    "critic_score": ("f8", ()),
 }
 """The same, where the trajectories of controllers are recorded."""
 
@@ -192,6 +172,11 @@ class Recorder:
                 self._rows["scan_ranges"].append(ranges)
         if len(self._rows.get("scan_time", ())) >= SCANS:
             self.flush()
+
+    def maps(self, changes: Chunk) -> None:
+        """Record what has changed on the maps of robots."""
+        if changes:
+            self._sink(changes)
 
     def evaluations(self, now: float, evaluations: Sequence[RecordedEvaluation]) -> None:
         """Record what controllers weighed: one row per trajectory, and one per critic and chosen trajectory."""

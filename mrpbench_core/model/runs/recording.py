@@ -20,6 +20,8 @@
 | `contact_time`, `contact` | f8; i4[2] | per pair and period in contact: robot; robot, -1 = wall or n + j = mover j |
 | `contact_force` | f8 | of each contact: mean normal force over the period in newtons, NaN = unknown |
 | `scan_time`, `scan_robot`, `scan_ranges` | f8; i4; f4[beams] | only with `recording.scans` |
+| `map_time`, `map_robot` | f8; i4 | per tile of a robot's map that changed; only where the localizer builds maps |
+| `map_corner`, `map_side`, `map_cells` | f8[2]; f8; i1[r,c] | see `LocalizerSession.map_changes` |
 | `trajectory_time`, `trajectory_robot` | f8; i4 | per trajectory; only with `recording.trajectories` |
 | `trajectory_chosen`, `trajectory_cost` | u1; f8 | 1 = the chosen one; lower is better, inf = refused, NaN = unknown |
 | `trajectory_pose` | f4[16,3] | x, y, yaw in `map`, in order of time |

@@ -1,5 +1,6 @@
 """The parts of mrpbench in C++. `mapf`: multi-agent path finding; `sim`: robots, contacts and lidars in the plane;
-`amcl`: localisation; `local`: costmaps and local control. `solve` plans paths from a notebook.
+`amcl`: localisation; `slam`: localisation and mapping; `local`: costmaps and local control. `solve` plans paths from a
+notebook.
 """
 
 from mrpbench_native.algorithms import ALGORITHMS, describe, options_of

@@ -16,6 +16,7 @@ from mrpbench_core.store.recording import Recording
 from mrpbench_replay.doors import pack_facilities
 from mrpbench_replay.events import read_contacts, read_events
 from mrpbench_replay.facts import facts_of
+from mrpbench_replay.maps import pack_maps
 from mrpbench_replay.motion import pack_motion
 from mrpbench_replay.movers import pack_movers
 from mrpbench_replay.packing import Packing
@@ -50,7 +51,7 @@ def write_page(
         InputError: nothing was recorded, or the file cannot be written.
     """
     context = recording.context()
-    motion, scans, trajectories = Packing(), Packing(), Packing()
+    motion, scans, trajectories, maps = Packing(), Packing(), Packing(), Packing()
     pack_motion(recording, motion)
     plans = read_plans(recording.first_context(), recording.channels)
     pack_schedule(plans, context.problem.roadmap.tick, motion)
@@ -68,11 +69,11 @@ def write_page(
         "movers": pack_movers(recording, motion),
         "scans": thinned,
         "trajectories": pack_trajectories(recording, trajectories),
+        "maps": pack_maps(recording, maps),
     }
     title = f"{context.world.name}: {record['run_id'][:12]}"
-    template().write(
-        file, title, {"data": _data(data, {"motion": motion, "scans": scans, "trajectories": trajectories})}
-    )
+    packings = {"motion": motion, "scans": scans, "trajectories": trajectories, "maps": maps}
+    template().write(file, title, {"data": _data(data, packings)})
 
 
 @cache

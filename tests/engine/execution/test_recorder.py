@@ -100,6 +100,17 @@ def test_doors_and_lifts_are_a_channel_where_there_are_some():
     assert joined(chunks, "waits_for").tolist() == [[-1, -1], [-1, -1]]
 
 
+def test_changes_of_maps_are_handed_on_and_nothing_is_written_without_any():
+    chunks = []
+    recorder = Recorder(10.0, 0.05, chunks.append)
+    count = len(chunks)
+    recorder.maps({})
+    assert len(chunks) == count
+    changes = {"map_time": np.zeros(1), "map_cells": np.zeros((1, 2, 2), "i1")}
+    recorder.maps(changes)
+    assert chunks[count:] == [changes]
+
+
 def test_scans_are_not_kept_unless_requested():
     chunks = []
     recorder = Recorder(10.0, 0.05, chunks.append, scans=False)

@@ -22,6 +22,7 @@ from mrpbench_exporters_rosbag2.events import CONTACTS, EVENTS, contacts, events
 from mrpbench_exporters_rosbag2.fleet_states import fleet_states
 from mrpbench_exporters_rosbag2.frames import frames
 from mrpbench_exporters_rosbag2.local_plans import local_plan
+from mrpbench_exporters_rosbag2.maps import RobotMap
 from mrpbench_exporters_rosbag2.messages import Topic, message, nanoseconds, time
 from mrpbench_exporters_rosbag2.people import mover_numbers, people, people_markers
 from mrpbench_exporters_rosbag2.rmf import Release
@@ -99,7 +100,7 @@ class BagWriter(FormatWriter):
         return selected(topic.name, self.patterns)
 
 
-def sources(context: RunContext, rmf: Release) -> Iterator[TopicSource]:
+def sources(context: RunContext, rmf: Release) -> Iterator[TopicSource | RobotMap]:
     """Every periodic topic, in the order of writing at one instant: the clock, frames before what stands in them."""
     robots = list(zip(context.fleet.names, context.fleet.robots, strict=True))
     covariances = Covariances()
@@ -125,6 +126,7 @@ def sources(context: RunContext, rmf: Release) -> Iterator[TopicSource]:
             yield scan(index, name, robot.lidar)
     for index, name in enumerate(context.fleet.names):
         yield local_plan(index, name, context.world)
+        yield RobotMap(index, name, context.world)
 
 
 def clock() -> TopicSource:

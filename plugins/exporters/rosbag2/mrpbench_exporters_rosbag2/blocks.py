@@ -16,6 +16,7 @@ from mrpbench_core.model.runs.recording import PERIODIC, Chunk
 AXES = {
     "time": (*PERIODIC, "facility", "mover", "mover_level", "mover_arrivals"),
     "scan_time": ("scan_robot", "scan_ranges"),
+    "map_time": ("map_robot", "map_corner", "map_side", "map_cells"),
     "trajectory_time": ("trajectory_robot", "trajectory_chosen", "trajectory_cost", "trajectory_pose"),
     "contact_time": ("contact",),
     "event_time": ("event_kind", "event_robot", "event_detail"),

@@ -27,7 +27,7 @@ FLEET = (
     "/tf_static",
 )
 """Once per bag; further levels have `/map_1`, `/map_2`, ..."""
-ROBOT = ("amcl_pose", "cmd_vel", "goal_pose", "ground_truth", "odom", "plan", "scan")
+ROBOT = ("amcl_pose", "cmd_vel", "goal_pose", "ground_truth", "map", "odom", "plan", "scan")
 """Once per robot: `/robot_0/odom`."""
 MANY = 1000
 """Patterns are tried on a fleet (and a house) of this size: which robots there are is not known yet."""

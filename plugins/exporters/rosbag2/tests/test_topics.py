@@ -9,7 +9,7 @@ def test_every_written_topic_is_listed(context, recording, tmp_path, read):
     session.close()
     listed = {*FLEET, *(f"/robot_{index}/{name}" for index in (0, 1) for name in ROBOT)}
     elsewhere = {"/routes", "/door_states", "/facilities", "/lift_states"}  # after a new plan, with doors and lifts
-    elsewhere |= {"/movers", "/people", "/people_markers"}
+    elsewhere |= {"/movers", "/people", "/people_markers", "/robot_0/map", "/robot_1/map"}  # where there are some
     assert set(read(tmp_path / "bag")) == listed - elsewhere
 
 

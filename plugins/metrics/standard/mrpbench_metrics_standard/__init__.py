@@ -9,6 +9,7 @@ from mrpbench_metrics_standard.draws import Draws
 from mrpbench_metrics_standard.efficiency import Efficiency
 from mrpbench_metrics_standard.execution import Execution
 from mrpbench_metrics_standard.fairness import Fairness
+from mrpbench_metrics_standard.localization import Localization
 from mrpbench_metrics_standard.people import People
 from mrpbench_metrics_standard.planning import Planning
 from mrpbench_metrics_standard.smoothness import Smoothness
@@ -28,6 +29,7 @@ __all__ = [
     "Efficiency",
     "Execution",
     "Fairness",
+    "Localization",
     "People",
     "Planning",
     "Smoothness",

@@ -29,7 +29,7 @@ export function fillFigures(run) {
   );
 }
 
-export function fillAbout(run, thinning, trajectories) {
+export function fillAbout(run, { scans: thinning, trajectories, maps }) {
   const { facts } = run;
   const page = document.getElementById("about");
   if (facts.error) page.append(make("p", "error", `${facts.error.stage}: ${facts.error.message}`));
@@ -43,6 +43,7 @@ export function fillAbout(run, thinning, trajectories) {
     page.append(make("p", "note", `This page has one in ${thinning.scan_step} lidar scans, with one in ${thinning.beam_step} beams.`));
   }
   if (trajectories?.step > 1) page.append(make("p", "note", `This page has one in ${trajectories.step} recorded commands of controllers.`));
+  if (maps?.step) page.append(make("p", "note", `This page has the maps of robots every ${maps.step} s.`));
   const configuration = make("pre", "", JSON.stringify(facts.config, null, 2));
   page.append(make("details", "", make("summary", "", "configuration"), configuration));
 }

@@ -28,6 +28,7 @@ const MEANING = [
   ["wide band", "reserved: released by the dispatcher and not reached yet"],
   ["arrow", "from a robot that waits to the robot, door or lift that it waits for"],
   ["square; filled", "a task that waits, with its age; one that a robot carries"],
+  ["cells", "in a robot's own map: pale = free, full = occupied"],
   ["rim", "tells robots of one colour apart"],
   ["pale bar", "in the Gantt chart: the plan in force, above the execution; a dashed line is a new plan"],
 ];

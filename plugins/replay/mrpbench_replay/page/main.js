@@ -19,6 +19,7 @@ import { Paths } from "replay/paths.js";
 import { People } from "replay/people.js";
 import { playback } from "replay/playback.js";
 import { listenToPointers } from "replay/pointer.js";
+import { RobotMaps } from "replay/robot_maps.js";
 import { Robots } from "replay/robots.js";
 import { Run, STATES } from "replay/run.js";
 import { Shown } from "replay/shown.js";
@@ -36,13 +37,14 @@ const CLOSE = 70; // pixels per metre at least when a robot is followed
 const data = JSON.parse(get("run").textContent);
 const run = new Run(data, await readArrays("motion"));
 const clock = new Clock(run.begin, run.end);
-const shown = new Shown(run, { scans: Boolean(data.scans), trajectories: Boolean(data.trajectories) });
+const shown = new Shown(run, { scans: Boolean(data.scans), trajectories: Boolean(data.trajectories), maps: Boolean(data.maps) });
 const view = new View(boundsOf(run));
 const [ground, paths, robots] = [new Ground(run), new Paths(run), new Robots(run)];
 const facilities = new Facilities(run);
 const people = new People(run);
 const heat = new Heat(run, view.bounds);
 const lidar = new Lidar(run, data.scans);
+const maps = new RobotMaps(run, data.maps);
 const trajectories = new Trajectories(run, data.trajectories);
 const timeline = new Timeline(run, get("track"));
 const calm = window.matchMedia("(prefers-reduced-motion: reduce)");
@@ -54,7 +56,7 @@ let [lastFrame, lastPanel] = [0, 0];
 
 fillHeader(run);
 fillFigures(run);
-fillAbout(run, data.scans, data.trajectories);
+fillAbout(run, data);
 layerControls(shown);
 const refreshLevels = levelControls(run, shown);
 const drawLegend = legend(run);
@@ -109,6 +111,7 @@ function draw() {
   }
   const context = fitCanvas(get("actors"));
   context.clearRect(0, 0, view.width, view.height);
+  if (shown.layers.map) maps.draw(context, view, theme, shown);
   facilities.draw(context, view, theme, shown);
   paths.draw(context, view, shown, painted);
   if (shown.layers.lidar) lidar.draw(context, view, shown, painted);
@@ -172,6 +175,7 @@ shown.addEventListener("change", () => {
     });
   }
   before = shown.selected;
+  if (shown.layers.map) maps.read().then(() => (stale.actors = true));
   if (shown.layers.lidar) lidar.read().then(() => (stale.actors = true));
   if (shown.layers.trajectories && shown.selected >= 0) trajectories.read().then(() => (stale.actors = stale.panel = true));
 });
@@ -276,5 +280,5 @@ resize();
 requestAnimationFrame(frame);
 
 /** For the console and for tests. */
-window.replay = { run, clock, shown, view, robots, lidar, trajectories, facilities, heat, gantt, tasks };
+window.replay = { run, clock, shown, view, robots, lidar, maps, trajectories, facilities, heat, gantt, tasks };
 document.body.classList.add("ready");

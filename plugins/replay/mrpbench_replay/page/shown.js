@@ -10,6 +10,7 @@ export const LAYERS = [
   { key: "waits", label: "Waits", letter: "w" },
   { key: "estimate", label: "Estimate", letter: "m" },
   { key: "lidar", label: "Lidar", letter: "l" },
+  { key: "map", label: "Robot maps", letter: "s" },
   { key: "trajectories", label: "Trajectories", letter: "y" },
   { key: "heat", label: "Heat", letter: "h" },
   { key: "gantt", label: "Gantt", letter: "g" },
@@ -29,12 +30,13 @@ export class Shown extends EventTarget {
       waits: !run.arrays.reason,
       estimate: !run.ghost,
       lidar: !recorded.scans,
+      map: !recorded.maps,
       trajectories: !recorded.trajectories,
       heat: !run.arrays.mode,
     };
     this.offered = LAYERS.filter(({ key }) => !missing[key]);
     if (!run.planned) this.offered = this.offered.map((it) => (it.key === "plan" ? { ...it, label: "Goals" } : it));
-    this.layers = { names: few, lanes: true, plan: few, driven: few, reserved: true, tasks: true, waits: true, estimate: false, lidar: false, trajectories: Boolean(recorded.trajectories), heat: false, gantt: false };
+    this.layers = { names: few, lanes: true, plan: few, driven: few, reserved: true, tasks: true, waits: true, estimate: false, lidar: false, map: false, trajectories: Boolean(recorded.trajectories), heat: false, gantt: false };
     this.colour = few ? "robot" : "state";
     this.selected = -1;
     this.follow = false;

@@ -1,0 +1,5 @@
+"""Simultaneous localisation and mapping, in C++."""
+
+from mrpbench_localizers_slam.localizer import Slam
+
+__all__ = ["Slam"]
