@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mrpbench_local/costmap/grid.hpp"
@@ -17,6 +18,9 @@ class Beams {
   std::size_t size() const { return along_x_.size(); }
   Point end(std::size_t i, double length) const { return origin_ + Point{along_x_[i], along_y_[i]} * length; }
 
+  /// The first of the beams that may come within `off` of a point, metres, and how many follow in turn: no others do.
+  std::pair<std::size_t, std::size_t> around(Point p, double off) const;
+
   /// Shorten each of the lengths, metres, so that it ends at the border of the frame, in which the sensor is.
   void clip(const Frame& frame, std::span<double> lengths) const;
   /// The cells at the ends of beams of these lengths.
@@ -24,6 +28,7 @@ class Beams {
 
  private:
   Point origin_;
+  double yaw_ = 0;
   std::vector<double> ahead_x_, ahead_y_, along_x_, along_y_;  // unit vectors in the sensor's frame, and in the world's
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mrpbench_local/costmap/grid.hpp"
+#include "mrpbench_local/costmap/lethal_cells.hpp"
 #include "mrpbench_options/options.hpp"
 #include "mrpbench_sim/segment_buckets.hpp"
 
@@ -78,8 +79,8 @@ class Costmap {
  private:
   void roll(Pose pose);
   void trace();
-  void clear_beams(Cell start);
   void mark_hits();
+  void clear_beams(Cell start);
   void clear_footprint(Pose pose);
   void mark(Cell c, double range, Point p);
   template <class Visit>
@@ -94,8 +95,10 @@ class Costmap {
   std::shared_ptr<const StaticMap> walls_;
   double inscribed_;
   Frame frame_;
-  Point centre_;
+  Pose pose_;  // of the last update
   bool known_ = false;
+  /// Whether an update at that pose with the scan that was seen last would change nothing.
+  bool settled_ = false;
   std::vector<std::uint8_t> marks_, cost_;
   /// Where in a marked cell the nearest beam of the last scan that hit it ended, in cells from its lower left corner.
   /// The mean of all beams would lie inside of corners and thin pillars, of which two sides are seen.
@@ -105,6 +108,7 @@ class Costmap {
   };
   std::vector<Hit> hits_;
   std::uint32_t scans_ = 0;
+  LethalCells lethal_;
   /// Metres that the robot keeps from what beams hit.
   double room_ = 0;
   /// The least cost of a cell in which the robot's centre may be too close to what is lethal.

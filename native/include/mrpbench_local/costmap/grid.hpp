@@ -14,6 +14,7 @@ using sim::Segment;
 
 struct Pose {
   double x = 0, y = 0, yaw = 0;
+  bool operator==(const Pose&) const = default;
 };
 
 /// Metres per second ahead, radians per second counter-clockwise.
@@ -49,6 +50,10 @@ struct Frame {
   std::size_t index(Cell c) const {
     return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c.x);
   }
+  Cell at(std::size_t index) const {
+    const int i = static_cast<int>(index);
+    return {i % width, i / width};
+  }
   /// The difference of the indices of two cells that are so far from each other.
   std::ptrdiff_t step(Cell by) const { return static_cast<std::ptrdiff_t>(by.y) * width + by.x; }
   Point centre(Cell c) const { return {(c.x + origin.x + 0.5) * resolution, (c.y + origin.y + 0.5) * resolution}; }
@@ -81,6 +86,15 @@ struct Line {
       error = aside ? back : straight;
       step(aside);
     }
+  }
+
+  /// Tell whether the line passes through the cell that is so far from its beginning.
+  bool holds(Cell away) const {
+    const bool steep = along.x == 0;
+    const int i = steep ? away.y * diagonal.y : away.x * diagonal.x;
+    const int aside = steep ? away.x * diagonal.x : away.y * diagonal.y;
+    const int error = longer / 2 - longer + i * shorter - aside * longer;  // of `walk` after step i, if it is there
+    return i >= 0 && i <= longer && aside >= 0 && (longer == 0 ? aside == 0 : error >= -longer && error < 0);
   }
 
   int longer, shorter;

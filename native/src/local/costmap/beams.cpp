@@ -35,6 +35,7 @@ MRPBENCH_WIDE void find_cells(std::size_t count, const double* x, const double* 
 
 void Beams::aim(std::size_t count, Point origin, double yaw) {
   origin_ = origin;
+  yaw_ = yaw;
   if (size() != count) {
     for (auto* it : {&ahead_x_, &ahead_y_, &along_x_, &along_y_}) it->resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -44,6 +45,17 @@ void Beams::aim(std::size_t count, Point origin, double yaw) {
     }
   }
   turn(count, ahead_x_.data(), ahead_y_.data(), {std::cos(yaw), std::sin(yaw)}, along_x_.data(), along_y_.data());
+}
+
+std::pair<std::size_t, std::size_t> Beams::around(Point p, double off) const {
+  const Point away = p - origin_;
+  const double distance = sim::length(away), count = static_cast<double>(size());
+  if (distance <= off) return {0, size()};
+  const double half = std::asin(off / distance), step = 2 * std::numbers::pi / count;
+  const double bearing = std::atan2(away.y, away.x) - yaw_;
+  const double first = std::floor((bearing - half) / step), last = std::ceil((bearing + half) / step);
+  const double turns = std::floor(first / count);
+  return {static_cast<std::size_t>(first - turns * count), static_cast<std::size_t>(std::min(count, last - first + 1))};
 }
 
 void Beams::clip(const Frame& frame, std::span<double> lengths) const {

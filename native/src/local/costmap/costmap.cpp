@@ -1,6 +1,7 @@
 #include "mrpbench_local/costmap/costmap.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <numbers>
 #include <stdexcept>
 
@@ -52,11 +53,6 @@ void traverse(Point a, Point b, double resolution, Visit&& visit) {
   }
 }
 
-/// The first lethal one of `count` cells from `i` on, or their number.
-std::size_t next_lethal(const std::uint8_t* cells, std::size_t i, std::size_t count) {
-  return next_byte(cells, kLethal, i, count);
-}
-
 }  // namespace
 
 Costmap::Costmap(CostmapOptions options, std::shared_ptr<const StaticMap> walls)
@@ -76,30 +72,42 @@ Costmap::Costmap(CostmapOptions options, std::shared_ptr<const StaticMap> walls)
 }
 
 void Costmap::see(Pose pose, const Sensor& sensor, std::span<const double> ranges) {
+  settled_ = settled_ && pose == scan_.pose && ranges.size() == scan_.ranges.size() &&
+             std::memcmp(ranges.data(), scan_.ranges.data(), ranges.size_bytes()) == 0;
+  scan_.fresh = true;
+  if (settled_) return;
   scan_.pose = pose;
   scan_.sensor = sensor;
   scan_.ranges.assign(ranges.begin(), ranges.end());
-  scan_.fresh = true;
 }
 
 void Costmap::clear() {
   std::fill(marks_.begin(), marks_.end(), kFree);
-  scan_.fresh = false;
-  if (known_) std::fill(cost_.begin(), cost_.end(), kFree);
+  scan_.fresh = settled_ = false;
+  if (!known_) return;
+  std::fill(cost_.begin(), cost_.end(), kFree);
+  lethal_.find(frame_, cost_);
 }
 
 void Costmap::update(Pose pose) {
+  const bool stays = known_ && pose == pose_;
+  if (settled_ && stays) {
+    scan_.fresh = false;
+    return;
+  }
+  settled_ = scan_.fresh || (settled_ && stays);
   roll(pose);
-  centre_ = {pose.x, pose.y};
+  pose_ = pose;
   if (options_.obstacle_layer) {
     trace();
     if (options_.footprint_clearing) clear_footprint(pose);
   }
   cost_ = marks_;
   if (options_.static_layer) draw_walls(cost_);
+  lethal_.find(frame_, cost_);
   if (options_.inflation_layer && reach_ > 0) inflate();
   room_ = inscribed_;
-  each_nearby(centre_, [&](double distance) { return room_ = std::min(room_, distance), true; });
+  each_nearby({pose.x, pose.y}, [&](double distance) { return room_ = std::min(room_, distance), true; });
   known_ = true;
 }
 
@@ -108,18 +116,12 @@ void Costmap::update(Pose pose) {
 template <class Visit>
 bool Costmap::each_nearby(Point p, Visit&& visit) const {
   const Point reach{inscribed_, inscribed_};
-  const Cell low = frame_.cell(p - reach), high = frame_.cell(p + reach);
-  const int left = std::max(0, low.x), right = std::min(frame_.width - 1, high.x);
-  for (int y = std::max(0, low.y); left <= right && y <= std::min(frame_.height - 1, high.y); ++y) {
-    const std::size_t end = frame_.index({right, y}) + 1;
-    for (std::size_t i = frame_.index({left, y}); (i = next_lethal(cost_.data(), i, end)) < end; ++i) {
-      const Cell c{right + 1 - static_cast<int>(end - i), y};
-      const Hit hit = marks_[i] == kLethal ? hits_[i] : Hit{};
-      const Point corner = frame_.centre(c) - Point{0.5, 0.5} * frame_.resolution;
-      if (!visit(sim::length(corner + Point{hit.x, hit.y} * frame_.resolution - p))) return false;
-    }
-  }
-  return true;
+  return lethal_.each(frame_.cell(p - reach), frame_.cell(p + reach), [&](Cell c) {
+    const std::size_t i = frame_.index(c);
+    const Hit hit = marks_[i] == kLethal ? hits_[i] : Hit{};
+    const Point corner = frame_.centre(c) - Point{0.5, 0.5} * frame_.resolution;
+    return visit(sim::length(corner + Point{hit.x, hit.y} * frame_.resolution - p));
+  });
 }
 
 bool Costmap::keeps_room(Point p) const {
@@ -144,107 +146,19 @@ void Costmap::roll(Pose pose) {
     std::copy_n(from, right - left, marks_.begin() + static_cast<std::ptrdiff_t>(frame_.index({left, y})));
   }
   lethal.clear();
-  for (std::size_t i = 0; (i = next_lethal(marks_.data(), i, marks_.size())) < marks_.size(); ++i) lethal.push_back(i);
+  for (std::size_t i = 0; (i = next_byte(marks_.data(), kLethal, i, marks_.size())) < marks_.size(); ++i)
+    lethal.push_back(i);
   // In the order in which no hit is written over before it is moved.
   const std::ptrdiff_t by = frame_.step({dx, dy});
   if (by < 0) std::reverse(lethal.begin(), lethal.end());
   for (const std::size_t i : lethal) hits_[i] = hits_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + by)];
 }
 
-/// Clear the cells along the beams, then mark the cells in which they end.
-void Costmap::trace() {
-  if (!scan_.fresh) return;
-  scan_.fresh = false;
-  const Pose& pose = scan_.pose;
-  const double cosine = std::cos(pose.yaw), sine = std::sin(pose.yaw);
-  const Point mount = scan_.sensor.mount;
-  const Point origin{pose.x + cosine * mount.x - sine * mount.y, pose.y + sine * mount.x + cosine * mount.y};
-  const Cell start = frame_.cell(origin);
-  if (!frame_.holds(start)) return;
-  UpdateBuffers& its = UpdateBuffers::of_thread();
-  its.beams.aim(scan_.ranges.size(), origin, pose.yaw);
-  its.lengths.resize(scan_.ranges.size());
-  its.ends.resize(scan_.ranges.size());
-  if (options_.clearing) clear_beams(start);
-  if (options_.marking) mark_hits();
-}
-
-void Costmap::clear_beams(Cell start) {
-  UpdateBuffers& its = UpdateBuffers::of_thread();
-  const double unseen = options_.inf_is_valid ? scan_.sensor.range : -1;
-  for (std::size_t i = 0; i < its.lengths.size(); ++i) {
-    const double range = std::isfinite(scan_.ranges[i]) ? scan_.ranges[i] : unseen;
-    its.lengths[i] = std::min(range, options_.raytrace_max_range);
-  }
-  its.beams.clip(frame_, its.lengths);
-  its.beams.end_cells(frame_, its.lengths, its.ends);
-  const double hidden = options_.raytrace_min_range / frame_.resolution;
-  Cell cleared{-1, -1};  // neighbouring beams often end in one cell
-  for (std::size_t i = 0; i < its.ends.size(); ++i) {
-    if (its.lengths[i] < 0) continue;
-    const Cell end{std::clamp(its.ends[i].x, 0, frame_.width - 1), std::clamp(its.ends[i].y, 0, frame_.height - 1)};
-    if (end == cleared) continue;
-    cleared = end;
-    if (hidden > 0) {
-      line(start, end, [&](Cell c) {
-        const double x = c.x - start.x, y = c.y - start.y;
-        if (x * x + y * y >= hidden * hidden) marks_[frame_.index(c)] = kFree;
-        return true;
-      });
-    } else {
-      const Line way(start, end);
-      std::uint8_t* at = &marks_[frame_.index(start)];
-      const std::ptrdiff_t along = frame_.step(way.along), diagonal = frame_.step(way.diagonal);
-      way.walk([&] { return *at = kFree, true; }, [&](bool aside) { at += aside ? diagonal : along; });
-    }
-  }
-}
-
-void Costmap::mark_hits() {
-  UpdateBuffers& its = UpdateBuffers::of_thread();
-  for (std::size_t i = 0; i < its.lengths.size(); ++i) {
-    const double range = scan_.ranges[i];
-    its.lengths[i] = range >= options_.obstacle_min_range && range < options_.obstacle_max_range ? range : -1;
-  }
-  its.beams.end_cells(frame_, its.lengths, its.ends);
-  ++scans_;
-  for (std::size_t i = 0; i < its.ends.size(); ++i) {
-    const Cell& soon = its.ends[std::min(i + 8, its.ends.size() - 1)];
-    if (frame_.holds(soon)) __builtin_prefetch(&hits_[frame_.index(soon)]);
-    if (its.lengths[i] >= 0 && frame_.holds(its.ends[i]))
-      mark(its.ends[i], its.lengths[i], its.beams.end(i, its.lengths[i]));
-  }
-}
-
-void Costmap::mark(Cell c, double range, Point p) {
-  const std::size_t i = frame_.index(c);
-  Hit& hit = hits_[i];
-  if (marks_[i] == kLethal && hit.scan == scans_ && hit.range <= range) return;
-  marks_[i] = kLethal;
-  const Point inside = (p - frame_.centre(c)) * (1 / frame_.resolution) + Point{0.5, 0.5};
-  hit = {static_cast<float>(inside.x), static_cast<float>(inside.y), static_cast<float>(range), scans_};
-}
-
-void Costmap::clear_footprint(Pose pose) {
-  place(options_.footprint, pose, corners_);
-  Point low = corners_[0], high = corners_[0];
-  for (const Point& p : corners_) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-  }
-  const Cell from = frame_.cell(low), to = frame_.cell(high);
-  for (int y = std::max(from.y, 0); y <= std::min(to.y, frame_.height - 1); ++y) {
-    for (int x = std::max(from.x, 0); x <= std::min(to.x, frame_.width - 1); ++x) {
-      if (inside(corners_, frame_.centre({x, y}))) marks_[frame_.index({x, y})] = kFree;
-    }
-  }
-}
-
 void Costmap::draw_walls(std::vector<std::uint8_t>& cells) const {
   if (!walls_) return;
   const double left = frame_.origin.x * frame_.resolution, bottom = frame_.origin.y * frame_.resolution;
   const double right = left + frame_.width * frame_.resolution, top = bottom + frame_.height * frame_.resolution;
-  for (const std::int32_t index : walls_->buckets.near(centre_)) {
+  for (const std::int32_t index : walls_->buckets.near({pose_.x, pose_.y})) {
     const Segment& wall = walls_->segments[static_cast<std::size_t>(index)];
     // Only the part within the frame (Y.-D. Liang and B. A. Barsky, ACM Transactions on Graphics 3, 1984).
     double from = 0, to = 1;
