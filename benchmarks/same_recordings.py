@@ -107,6 +107,13 @@ CASES: dict[str, dict[str, Any]] = {
         "controller": "dwb",
         "crowds": {"plugin": "social_force", "people": 10},
     },
+    "trajectories": CROWDED
+    | {
+        "simulator": "planar",
+        "controller": "dwb",
+        "recording": {"trajectories": {"robots": [0, 2, 5, 9], "every": 2}},
+        "limits": {"execution": 10.0},
+    },
     "schedule_only": {"execution": "schedule_only"},
 }
 """What differs from `FIRST`, by name."""

@@ -46,6 +46,23 @@ struct Frame {
   Cell cell(Point p) const {
     return {whole_below(p.x / resolution) - origin.x, whole_below(p.y / resolution) - origin.y};
   }
+  /// Calls `put(i, cell)` with the cell of each of `count` points `at(i)`. Divisions take most of the time, so they are
+  /// left out unless a quotient is so close to a whole number that a product might be rounded to another cell.
+  template <class At, class Put>
+  void cells(std::size_t count, At&& at, Put&& put) const {
+    constexpr double kClose = 4e-6;  // the error of a product below 2^31
+    const double inverse = 1 / resolution;
+    unsigned close = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Point p = at(i) * inverse;
+      const Cell c{whole_below(p.x), whole_below(p.y)};
+      const double x = p.x - c.x, y = p.y - c.y;
+      close |= (x < kClose) | (x > 1 - kClose) | (y < kClose) | (y > 1 - kClose);
+      put(i, Cell{c.x - origin.x, c.y - origin.y});
+    }
+    if (!close) return;
+    for (std::size_t i = 0; i < count; ++i) put(i, cell(at(i)));
+  }
   bool holds(Cell c) const { return c.x >= 0 && c.y >= 0 && c.x < width && c.y < height; }
   std::size_t index(Cell c) const {
     return static_cast<std::size_t>(c.y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(c.x);

@@ -44,6 +44,11 @@ class Critic {
   /// Raw scores of all trajectories, lower is better, and why some are illegal; `why` comes full of `kLegal`. Tells
   /// whether some may be.
   virtual bool score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) = 0;
+  /// Score again what `score` took for legal until it is known which trajectories could win, in the same way. Tells
+  /// whether some are illegal.
+  virtual bool complete(const Scene&, const Trajectories&, std::span<double>, std::span<Reason>) { return false; }
+  /// What `complete` would say of the last pose of one trajectory.
+  virtual Reason check_end(const Scene&, Pose) { return kLegal; }
   /// Check one pose of a trajectory; called only for trajectories that could win.
   virtual Reason check(const Scene&, Pose) { return kLegal; }
   /// Record the command that was chosen.

@@ -33,7 +33,7 @@ class Dwb : public Controller {
 
   std::optional<Twist> command(const Situation& now, const Extra& extra) override;
 
-  /// The trajectories from which the last command was chosen: names of the `critics`, `twist`, `pose`, raw `score` of
+  /// Call it before the next scan. The trajectories from which the last command was chosen: names of the `critics`, `twist`, `pose`, raw `score` of
   /// each critic, `total`, the `reason` why each was dropped, and the `cost`: the total, infinite where there is such a
   /// reason. Totals of those that were not fully checked are partial. If one was chosen, its poses are `chosen`
   /// f8[p,3], and `chosen_score` has its scores, multiplied by the scales. Nothing where no trajectories were sampled.
@@ -45,10 +45,25 @@ class Dwb : public Controller {
     Pose pose;
     Twist twist;
     double fastest = 0;
+    const Costmap* costmap = nullptr;
+  };
+
+  /// What critics say of the trajectories.
+  struct Scores {
+    /// Raw ones, critic by critic, and what they are multiplied by.
+    std::vector<double> raw, scale;
+    /// What the caller adds.
+    std::vector<double> added;
+    std::vector<double> total;
+    std::vector<Reason> why;
+    /// The critic that says why, -1 = none.
+    std::vector<int> dropped;
+    bool complete = false;
   };
 
   double speed_to_stop(double left, double cell) const;
   void score(const Scene& scene, Buffers& its, const Extra& extra);
+  void complete(const Scene& scene, const Trajectories& all, Scores& scores) const;
   bool passes(const Scene& scene, const Trajectories& all, std::size_t i);
   std::optional<std::size_t> best(const Scene& scene, Buffers& its);
 
@@ -58,9 +73,7 @@ class Dwb : public Controller {
   std::optional<Pose> goal_;
   RotateToPath rotate_;
   std::optional<std::size_t> chosen_;
-  std::vector<double> raw_, total_, scale_, added_;
-  std::vector<Reason> why_;
-  std::vector<int> dropped_;
+  Scores scores_;
 };
 
 }  // namespace mrpbench::local

@@ -28,7 +28,9 @@ MRPBENCH_WIDE void clip_axis(std::size_t count, const double* along, double from
 
 MRPBENCH_WIDE void find_cells(std::size_t count, const double* x, const double* y, Point origin, Frame frame,
                               const double* lengths, Cell* cells) {
-  for (std::size_t i = 0; i < count; ++i) cells[i] = frame.cell(origin + Point{x[i], y[i]} * lengths[i]);
+  frame.cells(
+      count, [&](std::size_t i) { return origin + Point{x[i], y[i]} * lengths[i]; },
+      [&](std::size_t i, Cell c) { cells[i] = c; });
 }
 
 }  // namespace

@@ -34,12 +34,14 @@ class Obstacle : public Critic {
     } else {
       score_.ends(scene, all, raw);
     }
-    if (std::ranges::none_of(raw, [](double score) { return score < 0; })) return false;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (raw[i] < 0) why[i] = reason(raw[i]);
-    }
-    return true;
+    return some_illegal(raw, why);
   }
+
+  bool complete(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
+    return !sum_ && score_.complete(scene, all, raw) && some_illegal(raw, why);
+  }
+
+  Reason check_end(const Scene& scene, Pose pose) override { return sum_ ? kLegal : check(scene, pose); }
 
   Reason check(const Scene& scene, Pose pose) override {
     const double score = score_(*scene.costmap, pose);
@@ -47,6 +49,14 @@ class Obstacle : public Critic {
   }
 
  private:
+  static bool some_illegal(std::span<const double> raw, std::span<Reason> why) {
+    if (std::ranges::none_of(raw, [](double score) { return score < 0; })) return false;
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+      if (raw[i] < 0) why[i] = reason(raw[i]);
+    }
+    return true;
+  }
+
   static Reason reason(double score) { return score == kOff ? kOffGrid : kHits; }
 
   double sum(const Scene& scene, const Trajectories& all, std::size_t i) {
@@ -68,13 +78,26 @@ struct Centre {
     return at(costmap, costmap.frame().cell({pose.x, pose.y}), pose);
   }
 
-  void ends(const Scene& scene, const Trajectories& all, std::span<double> raw) const {
+  /// The costs of the last poses; whether there is room is asked only of trajectories that could win.
+  void ends(const Scene& scene, const Trajectories&, std::span<double> raw) const {
     const EndCells::Cells& cells = scene.ends->ahead(0);
     const Costmap& costmap = *scene.costmap;
     for (std::size_t i = 0; i < raw.size(); ++i) {
       const Cell c{cells.x[i], cells.y[i]};
-      raw[i] = cells.inside && costmap.is_clear(c) ? costmap.at(c) : at(costmap, c, all.end(i));
+      if (!cells.inside && !costmap.frame().holds(c)) {
+        raw[i] = kOff;
+      } else {
+        raw[i] = costmap.at(c) <= kInscribed ? costmap.at(c) : kHit;
+      }
     }
+  }
+
+  bool complete(const Scene& scene, const Trajectories& all, std::span<double> raw) const {
+    const EndCells::Cells& cells = scene.ends->ahead(0);
+    for (std::size_t i = 0; i < raw.size(); ++i) {
+      if (raw[i] >= 0) raw[i] = at(*scene.costmap, {cells.x[i], cells.y[i]}, all.end(i));
+    }
+    return true;
   }
 
  private:
@@ -100,6 +123,8 @@ struct Outline {
   void ends(const Scene& scene, const Trajectories& all, std::span<double> raw) {
     for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = (*this)(*scene.costmap, all.end(i));
   }
+
+  bool complete(const Scene&, const Trajectories&, std::span<double>) const { return false; }
 };
 
 }  // namespace

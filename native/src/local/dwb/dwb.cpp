@@ -106,7 +106,7 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   const Frame& frame = it.costmap->frame();
   const Point end = path.end();
   chosen_.reset();
-  total_.clear();
+  scores_.total.clear();
   if (is_new(goal_, path)) {
     goal_ = {end.x, end.y, path.yaw};
     for (const Weighted& each : critics_) each.critic->reset();
@@ -122,7 +122,8 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   if (!its.path.empty()) its.path.spread(frame);
   const Twist measured{thresholded(it.twist.ahead, options_.min_x_velocity_threshold),
                        thresholded(it.twist.turn, options_.min_theta_velocity_threshold)};
-  sampled_ = {pose, measured, std::min(path.speed, speed_to_stop(its.path.left(), frame.resolution))};
+  sampled_ = {pose, measured, std::min(path.speed, speed_to_stop(its.path.left(), frame.resolution)),
+              it.costmap};
   its.all.generate(options_.motion, pose, measured, sampled_.fastest);
   its.ends.begin(frame, its.all);
   const Scene scene{it.now, pose, measured, *goal_, path.tolerance, it.costmap, &its.path, &its.ends};
@@ -147,47 +148,85 @@ Dwb::Buffers& Dwb::Buffers::of_thread() {
 /// Totals of all trajectories, from critics that need only their last poses.
 void Dwb::score(const Scene& scene, Buffers& its, const Extra& extra) {
   const std::size_t count = its.all.size();
-  total_.assign(count, 0);
-  why_.assign(count, kLegal);
-  dropped_.assign(count, -1);
-  raw_.resize(count * critics_.size());
+  Scores& of = scores_;
+  of.total.assign(count, 0);
+  of.why.assign(count, kLegal);
+  of.dropped.assign(count, -1);
+  of.raw.resize(count * critics_.size());
+  of.scale.assign(critics_.size(), 0);
+  of.complete = false;
   its.fault.resize(count, kLegal);  // it is full of that
-  scale_.assign(critics_.size(), 0);
   for (std::size_t c = 0; c < critics_.size(); ++c) {
     const Weighted& it = critics_[c];
     it.critic->prepare(scene);
-    const std::span<double> raw(&raw_[c * count], count);
-    const double scale = scale_[c] = it.scale * it.critic->weight(scene);
+    const std::span<double> raw(&of.raw[c * count], count);
+    const double scale = of.scale[c] = it.scale * it.critic->weight(scene);
     if (scale == 0) {
       std::ranges::fill(raw, 0);
       continue;
     }
     const bool faulty = it.critic->score(scene, its.all, raw, its.fault);
-    add_scaled(count, raw.data(), scale, total_.data());
+    add_scaled(count, raw.data(), scale, of.total.data());
     for (std::size_t i = 0; faulty && i < count; ++i) {
       if (!its.fault[i]) continue;
-      if (!why_[i]) {
-        why_[i] = its.fault[i];
-        dropped_[i] = static_cast<int>(c);
+      if (!of.why[i]) {
+        of.why[i] = its.fault[i];
+        of.dropped[i] = static_cast<int>(c);
       }
       its.fault[i] = kLegal;
     }
   }
   if (!extra) return;
-  added_.assign(count, 0);
-  extra(samples_of(its.all), added_);
-  for (std::size_t i = 0; i < count; ++i) total_[i] += added_[i];
+  of.added.assign(count, 0);
+  extra(samples_of(its.all), of.added);
+  for (std::size_t i = 0; i < count; ++i) of.total[i] += of.added[i];
+}
+
+/// Let critics say of all trajectories what they left open.
+void Dwb::complete(const Scene& scene, const Trajectories& all, Scores& scores) const {
+  if (scores.complete) return;
+  scores.complete = true;
+  const std::size_t count = all.size();
+  std::vector<Reason> fault(count, kLegal);
+  const auto total = [&](std::size_t i) {
+    double sum = 0;
+    for (std::size_t c = 0; c < critics_.size(); ++c) {
+      if (scores.scale[c] != 0) sum += scores.raw[c * count + i] * scores.scale[c];
+    }
+    return scores.added.empty() ? sum : sum + scores.added[i];
+  };
+  for (std::size_t c = 0; c < critics_.size(); ++c) {
+    const std::span<double> raw(&scores.raw[c * count], count);
+    if (scores.scale[c] == 0 || !critics_[c].critic->complete(scene, all, raw, fault)) continue;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!fault[i]) continue;
+      if (!scores.why[i] || scores.dropped[i] > static_cast<int>(c)) {
+        scores.why[i] = fault[i];
+        scores.dropped[i] = static_cast<int>(c);
+      }
+      scores.total[i] = total(i);
+      fault[i] = kLegal;
+    }
+  }
 }
 
 /// Check all poses of a trajectory.
 bool Dwb::passes(const Scene& scene, const Trajectories& all, std::size_t i) {
+  Reason& why = scores_.why[i];
+  for (std::size_t c = 0; !scores_.complete && c < critics_.size(); ++c) {
+    if (scores_.scale[c] == 0) continue;
+    why = critics_[c].critic->check_end(scene, all.end(i));
+    if (!why) continue;
+    scores_.dropped[i] = static_cast<int>(c);
+    return false;
+  }
   return all.walk(i, [&](Pose pose) {
     for (std::size_t c = 0; c < critics_.size(); ++c) {
       const Weighted& it = critics_[c];
       if (it.scale == 0) continue;
-      why_[i] = it.critic->check(scene, pose);
-      if (!why_[i]) continue;
-      dropped_[i] = static_cast<int>(c);
+      why = it.critic->check(scene, pose);
+      if (!why) continue;
+      scores_.dropped[i] = static_cast<int>(c);
       return false;
     }
     return true;
@@ -197,25 +236,28 @@ bool Dwb::passes(const Scene& scene, const Trajectories& all, std::size_t i) {
 /// The trajectory with the lowest total, of equal ones the first. Trajectories that cannot win by their totals are not
 /// checked pose by pose: DWB's short-circuit evaluation, applied to whole trajectories.
 std::optional<std::size_t> Dwb::best(const Scene& scene, Buffers& its) {
-  const auto may_win = [&](std::size_t i) { return !why_[i] && total_[i] < std::numeric_limits<double>::infinity(); };
+  const std::vector<double>& total = scores_.total;
+  const auto may_win = [&](std::size_t i) {
+    return !scores_.why[i] && total[i] < std::numeric_limits<double>::infinity();
+  };
+  if (!options_.short_circuit) complete(scene, its.all, scores_);
   for (std::size_t i = 0; !options_.short_circuit && i < its.all.size(); ++i) {
     if (may_win(i)) passes(scene, its.all, i);
   }
   std::optional<std::size_t> first;
   double lowest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < its.all.size(); ++i) {
-    if (!(total_[i] < lowest) || why_[i]) continue;
-    lowest = total_[i];
+    if (!(total[i] < lowest) || scores_.why[i]) continue;
+    lowest = total[i];
     first = i;
   }
   if (!first || passes(scene, its.all, *first)) return first;
+  complete(scene, its.all, scores_);
   its.order.clear();
   for (std::size_t i = 0; i < its.all.size(); ++i) {
     if (may_win(i)) its.order.push_back(i);
   }
-  const auto worse = [&](std::size_t a, std::size_t b) {
-    return total_[a] != total_[b] ? total_[a] > total_[b] : a > b;
-  };
+  const auto worse = [&](std::size_t a, std::size_t b) { return total[a] != total[b] ? total[a] > total[b] : a > b; };
   std::ranges::make_heap(its.order, worse);
   for (; !its.order.empty(); its.order.pop_back()) {
     if (passes(scene, its.all, its.order.front())) return its.order.front();
@@ -225,35 +267,44 @@ std::optional<std::size_t> Dwb::best(const Scene& scene, Buffers& its) {
 }
 
 Explanation Dwb::explain() const {
-  const std::size_t count = total_.size();
+  const std::size_t count = scores_.total.size();
   Explanation found;
   if (count == 0) return found;
   Trajectories all;
   all.generate(options_.motion, sampled_.pose, sampled_.twist, sampled_.fastest);
+  EndCells ends;
+  ends.begin(sampled_.costmap->frame(), all);
+  Scene scene;
+  scene.costmap = sampled_.costmap;
+  scene.ends = &ends;
+  Scores scores = scores_;
+  complete(scene, all, scores);
   Samples samples = samples_of(all);
   found.arrays = {{"twist", std::move(samples.twist)},
                   {"pose", std::move(samples.pose)},
-                  {"score", {raw_, {critics_.size(), count}}},
-                  {"total", {total_, {count}}}};
+                  {"score", {scores.raw, {critics_.size(), count}}},
+                  {"total", {scores.total, {count}}}};
   for (const Weighted& it : critics_) found.words["critics"].push_back(it.name);
   std::vector<std::string>& reasons = found.words["reason"];
   for (std::size_t i = 0; i < count; ++i) {
-    const int critic = dropped_[i];
-    reasons.push_back(critic < 0 ? "" : critics_[static_cast<std::size_t>(critic)].name + ": " + why_[i]);
+    const int critic = scores.dropped[i];
+    reasons.push_back(critic < 0 ? "" : critics_[static_cast<std::size_t>(critic)].name + ": " + scores.why[i]);
   }
-  Array& cost = found.arrays["cost"] = {total_, {count}};
+  Array& cost = found.arrays["cost"] = {scores.total, {count}};
   for (std::size_t i = 0; i < count; ++i) {
-    if (why_[i]) cost.values[i] = std::numeric_limits<double>::infinity();
+    if (scores.why[i]) cost.values[i] = std::numeric_limits<double>::infinity();
   }
   if (!chosen_) return found;
   const auto& poses = found.arrays["pose"];
   const std::size_t size = 3 * poses.shape[1];
   const auto first = poses.values.begin() + static_cast<std::ptrdiff_t>(*chosen_ * size);
   found.arrays["chosen"] = {{first, first + static_cast<std::ptrdiff_t>(size)}, {poses.shape[1], 3}};
-  Array& scores = found.arrays["chosen_score"];
-  for (std::size_t c = 0; c < critics_.size(); ++c) scores.values.push_back(raw_[c * count + *chosen_] * scale_[c]);
-  if (!added_.empty()) scores.values.push_back(added_[*chosen_]);
-  scores.shape = {scores.values.size()};
+  Array& chosen = found.arrays["chosen_score"];
+  for (std::size_t c = 0; c < critics_.size(); ++c) {
+    chosen.values.push_back(scores.raw[c * count + *chosen_] * scores.scale[c]);
+  }
+  if (!scores.added.empty()) chosen.values.push_back(scores.added[*chosen_]);
+  chosen.shape = {chosen.values.size()};
   return found;
 }
 

@@ -12,13 +12,14 @@ namespace {
 
 MRPBENCH_WIDE bool find_cells(std::size_t count, const double* end_x, const double* end_y, const double* heading_x,
                               const double* heading_y, double distance, Frame frame, int* x, int* y) {
+  frame.cells(
+      count, [&](std::size_t i) { return Point{end_x[i], end_y[i]} + Point{heading_x[i], heading_y[i]} * distance; },
+      [&](std::size_t i, Cell c) {
+        x[i] = c.x;
+        y[i] = c.y;
+      });
   unsigned outside = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Cell c = frame.cell(Point{end_x[i], end_y[i]} + Point{heading_x[i], heading_y[i]} * distance);
-    x[i] = c.x;
-    y[i] = c.y;
-    outside |= frame.holds(c) ? 0u : 1u;
-  }
+  for (std::size_t i = 0; i < count; ++i) outside |= frame.holds({x[i], y[i]}) ? 0u : 1u;
   return outside == 0;
 }
 
