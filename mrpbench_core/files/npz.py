@@ -7,6 +7,7 @@ from io import BytesIO
 from typing import Any
 
 import numpy as np
+from isal import isal_zlib
 from numpy.lib import format as npy
 from numpy.typing import NDArray
 
@@ -29,6 +30,15 @@ def read_entry(source: zipfile.ZipFile, entry: zipfile.ZipInfo) -> bytes:
 def write_entry(archive: zipfile.ZipFile, name: str, content: bytes) -> None:
     """Add a file without a date, so that equal contents make equal zips, byte by byte."""
     archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED, compresslevel=1)
+
+
+def write_chunk(archive: zipfile.ZipFile, name: str, content: bytes) -> None:
+    """Add a file as `write_entry` in a fourth of the time: by ISA-L, whose bytes may differ from those of zlib."""
+    entry = zipfile.ZipInfo(name)
+    entry.compress_type, entry.file_size = zipfile.ZIP_DEFLATED, len(content)
+    with archive.open(entry, "w") as stream:
+        stream._compressor = isal_zlib.compressobj(2, isal_zlib.DEFLATED, -15)  # type: ignore[attr-defined]
+        stream.write(content)
 
 
 def array_bytes(array: NDArray[Any]) -> bytes:

@@ -17,7 +17,7 @@ from mrpbench_core.checking.context import check_context, check_rows
 from mrpbench_core.checking.recording import axis_of, check_names
 from mrpbench_core.files.codec import decode, encode
 from mrpbench_core.files.errors import InputError, one_line
-from mrpbench_core.files.npz import array_bytes, read_array, read_entry, write_entry
+from mrpbench_core.files.npz import array_bytes, read_array, read_entry, write_chunk, write_entry
 from mrpbench_core.files.output import create_file
 from mrpbench_core.model.common.arrays import Int, Int32
 from mrpbench_core.model.execution.movers import Mover
@@ -152,7 +152,7 @@ class RecordingWriter:
     def write(self, chunk: Chunk) -> None:
         """Append rows to channels."""
         for channel, rows in chunk.items():
-            write_entry(self._zip, f"{channel}/{self._chunks:06d}.npy", array_bytes(rows))
+            write_chunk(self._zip, f"{channel}/{self._chunks:06d}.npy", array_bytes(rows))
         self._chunks += 1
 
     def close(self) -> None:

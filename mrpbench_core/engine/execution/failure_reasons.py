@@ -8,7 +8,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.engine.execution.faults import FaultState, approaches
-from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
 from mrpbench_core.model.common.geometry import point_segment_distance
 from mrpbench_core.model.execution.motion import Motion
 from mrpbench_core.model.execution.orders import Orders
@@ -118,9 +118,7 @@ class FailureReasons:
         return self._under_way(robot)
 
     def _under_way(self, robot: int) -> str:
-        ends = self._moves_ahead(robot)
-        left = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).sum())
-        return f"was under way at {self._place(robot)}, with {left:.1f} m of its path left"
+        return f"was under way at {self._place(robot)}, with {self._left[robot]:.1f} m of its path left"
 
     def _waits_for(self, robot: int) -> list[int]:
         """The robots that may keep one from going on: in its way, in its door or lift, or due to pass before it."""
@@ -131,9 +129,13 @@ class FailureReasons:
             for holder in self.holders.get(name, ())
         ]
         if (ends := self._next_move(robot)) is not None:
-            gap = point_segment_distance(self.pose[:, :2], *ends)
-            near = gap < self.problem.radius + self.problem.radius[robot]
-            others += np.flatnonzero(near)[np.argsort(gap[near], kind="stable")].tolist()
+            order, along_x = self._by_x
+            reach = self.problem.radius.max() + self.problem.radius[robot]
+            low, high = np.searchsorted(along_x, [ends[:, 0].min() - reach, ends[:, 0].max() + reach])
+            beside = np.sort(order[low:high])
+            gap = point_segment_distance(self.pose[beside, :2], *ends)
+            near = gap < self.problem.radius[beside] + self.problem.radius[robot]
+            others += beside[near][np.argsort(gap[near], kind="stable")].tolist()
         awaited = self.dispatcher_waits_for(robot)
         others += self._due_before(robot) if awaited is None else awaited
         return [other for other in dict.fromkeys(others) if other != robot]
@@ -152,12 +154,34 @@ class FailureReasons:
 
     def _next_move(self, robot: int) -> Float | None:
         """The ends f8[2,2] of the first move that a robot has not completed."""
-        ends = self._moves_ahead(robot)
-        return ends[0] if len(ends) else None
+        edges, (first, end) = self._edges, self._ahead[:, robot].tolist()
+        while first < end and edges[first] < 0:
+            first += 1
+        roadmap = self.problem.roadmap
+        return None if first == end else roadmap.position[roadmap.edges[edges[first]]]
 
-    def _moves_ahead(self, robot: int) -> Float:
-        """The ends f8[k,2,2] of the moves that a robot has not completed."""
-        paths, roadmap = Paths.of(self.plan.paths), self.problem.roadmap
-        edge = paths.edge[paths.first[robot] + self.motion.reached[robot] : paths.first[robot + 1]]
-        ends: Float = roadmap.position[roadmap.edges[edge[edge >= 0]]]
-        return ends
+    @cached_property
+    def _edges(self) -> Int32:
+        return Paths.of(self.plan.paths).edge
+
+    @cached_property
+    def _ahead(self) -> Int:
+        """Where segments i8[2,n] that robots have not completed begin and end."""
+        first = Paths.of(self.plan.paths).first
+        return np.stack([np.minimum(first[:-1] + self.motion.reached, first[1:]), first[1:]])
+
+    @cached_property
+    def _left(self) -> Float:
+        """Metres f8[n] of each path that are not driven."""
+        position, edges = self.problem.roadmap.position, self.problem.roadmap.edges[self._edges[self._edges >= 0]]
+        way = np.zeros(len(self._edges))
+        way[self._edges >= 0] = np.linalg.norm(position[edges[:, 1]] - position[edges[:, 0]], axis=1)
+        driven = np.append(0.0, np.cumsum(way))
+        left: Float = driven[self._ahead[1]] - driven[self._ahead[0]]
+        return left
+
+    @cached_property
+    def _by_x(self) -> tuple[Int, Float]:
+        """The robots by their x, and x."""
+        order = np.argsort(self.pose[:, 0])
+        return order, self.pose[order, 0]
