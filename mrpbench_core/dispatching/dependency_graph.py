@@ -16,6 +16,7 @@ from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.type2_edges import Moves, Type2Edges, moves_of, type2_edges
 
+_NEVER = 2**62
 REACHED, CLEARED = 0, 1
 """Rows of the counts of leading segments i8[2,n], see `mrpbench_core.model.execution.orders.FleetView`."""
 
@@ -63,34 +64,24 @@ class DependencyGraph:
         """i8[m]: the first move of the group of each move."""
         sizes = Paths.of(plan.paths).size
         self._stride = int(sizes.max(initial=0)) + 1
-        dependencies = np.concatenate([self._dependencies(self.order), self._follows()])
-        keys, waiting = np.divmod(dependencies, max(1, len(moves.robot)))
-        rows, numbers = np.divmod(keys, self._stride)
-        open_ = numbers > counts.reshape(-1)[rows]
-        keys, waiting = keys[open_], waiting[open_]
-        unmet = np.bincount(waiting, minlength=len(moves.robot))
-        # Lists from here on, because they are read one number at a time.
-        self.group: list[int] = self.group_of_moves.tolist()
-        self.unmet: list[int] = unmet.tolist()
-        self._waiting: dict[int, list[int]] = {}
-        """The groups that wait for a robot to reach or clear a number of segments, by row and number."""
-        for key, group in zip(keys.tolist(), waiting.tolist(), strict=True):
-            self._waiting.setdefault(key, []).append(group)
-        self._met: list[int] = counts.reshape(-1).tolist()
+        self._met = memoryview(counts.reshape(-1).astype(np.int64))
         """The number of segments up to which dependencies are met: rows of REACHED, then those of CLEARED."""
+        waiting = self._wait_for(np.concatenate([self._dependencies(self.order), self._follows()]))
+        unmet = np.bincount(waiting, minlength=len(moves.robot)).astype(np.int32)
+        # Numbers from here on are read and written one at a time: views do that faster than arrays.
+        self.group, self.unmet = memoryview(self.group_of_moves), memoryview(unmet)
         self._unmet_rows: dict[int, list[int]] | None = None
         """The rows of the unmet dependencies of each group that is next for some robot; None = not known yet."""
-        self.segment: list[int] = moves.segment.tolist()
-        self.robot: list[int] = moves.robot.tolist()
-        self.first, self.last = moves.first[:-1].tolist(), moves.first[1:].tolist()
-        self.lengths = sizes.tolist()
+        self.segment, self.robot = memoryview(moves.segment), memoryview(moves.robot)
+        self.first, self.last = memoryview(moves.first[:-1]), memoryview(moves.first[1:])
+        self.lengths = memoryview(sizes)
         self.rotating = [rotation for first, rotation in self.rotations.items() if not self.unmet[first]]
         """Rotations that are released and not completed."""
         held = unmet[self.group_of_moves] > 0
         held[list(self.requests.needs)] = True  # nothing is granted yet
         at = np.append(np.flatnonzero(held), len(held))
         frontier = np.minimum(at[np.searchsorted(at, moves.first[:-1])], moves.first[1:])
-        self.frontier: list[int] = frontier.tolist()
+        self.frontier = memoryview(frontier)
         """The first move of each robot that is not released."""
         before = np.append(moves.segment, 0)[frontier - 1] + 1
         released = np.where(frontier == moves.first[:-1], 0, before)
@@ -101,10 +92,21 @@ class DependencyGraph:
         """A graph that goes on from here by itself."""
         twin = copy.copy(self)
         twin.requests = self.requests.copied()
-        twin.unmet, twin._met, twin.frontier = self.unmet.copy(), self._met.copy(), self.frontier.copy()
-        twin._waiting = self._waiting.copy()  # its lists never change
+        for name in ("unmet", "frontier", "_met", "_at"):
+            setattr(twin, name, memoryview(np.array(getattr(self, name))))
         twin.rotating, twin.released = self.rotating.copy(), self.released.copy()
         return twin
+
+    def _wait_for(self, dependencies: Int) -> Int:
+        """Wait for those of the coded dependencies i8[k] that are not met; return the groups that wait for them."""
+        coded: Int = np.sort(self._unmet_among(dependencies))
+        keys, groups = np.divmod(coded, max(1, len(self.moves.robot)))
+        begin = np.arange(len(self._met)) * self._stride + np.array(self._met)
+        self._open, self._keys, self._waiting = coded, memoryview(np.append(keys, _NEVER)), memoryview(groups)
+        """The dependencies in order, and the row and number of segments, and the group, of each."""
+        self._at = memoryview(np.searchsorted(keys, begin, side="right"))
+        """The first dependency on each row that is not met."""
+        return groups
 
     def _dependencies(self, order: Type2Edges) -> Int:
         """The key of the row and count, and the waiting group, of every dependency of an order, as one number i8[k]."""
@@ -149,19 +151,18 @@ class DependencyGraph:
         before, after = self._dependencies(old), self._dependencies(new)
         removed = self._unmet_among(np.setdiff1d(before, after, assume_unique=True))
         added = self._unmet_among(np.setdiff1d(after, before, assume_unique=True))
-        for move in (move for _, group in added for move in self.rotations.get(group, (group,))):
+        fewer, more = ((codes % len(self.moves.robot)).tolist() for codes in (removed, added))
+        for move in (move for group in more for move in self.rotations.get(group, (group,))):
             if self.segment[move] < committed[self.robot[move]]:
                 raise DispatchError(f"robot {self.robot[move]} is already on its way where another is to pass first")
         self.order, self._unmet_rows = order, None
-        for key, group in removed:
-            self._waiting[key] = [other for other in self._waiting[key] if other != group]
+        self._wait_for(np.append(np.delete(self._open, np.searchsorted(self._open, removed)), added))
+        for group in fewer:
             self.unmet[group] -= 1
-        for key, group in added:
-            self._waiting[key] = [*self._waiting.get(key, ()), group]
+        for group in more:
             self.unmet[group] += 1
         self.rotating = [rotation for first, rotation in self.rotations.items() if not self.unmet[first]]
-        groups = {group for _, group in removed + added}
-        robots = {self.robot[move] for group in groups for move in self.rotations.get(group, (group,))}
+        robots = {self.robot[move] for group in fewer + more for move in self.rotations.get(group, (group,))}
         if self.requests:
             self.requests = ResourceRequests(len(self.frontier), self.moves, self.occupations, self._ahead)
             self.granted = frozenset()
@@ -188,34 +189,33 @@ class DependencyGraph:
         if (later[order.before] & chosen[order.after]).any() or along.any() or cycles(moves, order, chosen) != expected:
             raise DispatchError("robots would wait for one another in the new order")
 
-    def _unmet_among(self, dependencies: Int) -> list[tuple[int, int]]:
-        """The key of `_waiting` and the group of each dependency that is not met."""
-        keys, groups = np.divmod(dependencies, max(1, len(self.moves.robot)))
-        rows, counts = np.divmod(keys, self._stride)
-        unmet = counts > np.array(self._met)[rows]
-        return list(zip(keys[unmet].tolist(), groups[unmet].tolist(), strict=True))
+    def _unmet_among(self, dependencies: Int) -> Int:
+        """Those of the coded dependencies that are not met."""
+        rows, counts = np.divmod(dependencies // max(1, len(self.moves.robot)), self._stride)
+        return dependencies[counts > np.array(self._met)[rows]]
 
     def dependencies(self) -> Int:
         """Those that are not met, i8[k,3]: the row and the number of segments, and the group that waits."""
-        unmet = [(*divmod(key, self._stride), group) for key, groups in self._waiting.items() for group in groups]
-        return np.array(unmet, np.int64).reshape(-1, 3)
+        keys, groups = np.divmod(self._unmet_among(self._open), max(1, len(self.moves.robot)))
+        return np.stack([*np.divmod(keys, self._stride), groups], axis=1)
 
     def update(self, counts: Int, robots: Int) -> None:
         """Meet the dependencies on `robots` i8[k], given the counts i8[2,n] of leading segments, and release moves."""
         ready = []
-        waiting, unmet = self._waiting, self.unmet
+        keys, waiting, unmet, self._unmet_rows = self._keys, self._waiting, self.unmet, None
         rows = np.add.outer(robots, np.array([REACHED, CLEARED]) * len(self.frontier)).ravel()
         for row, value in zip(rows.tolist(), counts.ravel()[rows].tolist(), strict=True):
-            met = self._met[row]
-            if value <= met:
+            if value <= self._met[row]:
                 continue
             self._met[row] = value
-            self._unmet_rows = None
-            for key in range(row * self._stride + met + 1, row * self._stride + value + 1):
-                for group in waiting.pop(key, ()):
-                    unmet[group] -= 1
-                    if not unmet[group]:
-                        ready.append(group)
+            at, last = self._at[row], row * self._stride + value
+            while keys[at] <= last:
+                group = waiting[at]
+                at += 1
+                unmet[group] -= 1
+                if not unmet[group]:
+                    ready.append(group)
+            self._at[row] = at
         self.rotating += [self.rotations[group] for group in ready if group in self.rotations]
         for group in ready:
             for move in self.rotations.get(group, (group,)):
@@ -297,10 +297,10 @@ class DependencyGraph:
     def _blockers(self, group: int) -> list[int]:
         """The robots for which a group that is next for some robot still waits."""
         if self._unmet_rows is None:
-            ahead = (move for move, last in zip(self.frontier, self.last, strict=True) if move < last)
-            self._unmet_rows = {self.group[move]: [] for move in ahead}
-            for key, groups in self._waiting.items():
-                for waiting in groups:
-                    if waiting in self._unmet_rows:
-                        self._unmet_rows[waiting].append(key // self._stride)
+            ahead = [self.group[move] for move, last in zip(self.frontier, self.last, strict=True) if move < last]
+            self._unmet_rows = {next_group: [] for next_group in ahead}
+            rows, _, groups = self.dependencies().T
+            waits = np.isin(groups, ahead)
+            for row, waiting in zip(rows[waits].tolist(), groups[waits].tolist(), strict=True):
+                self._unmet_rows[waiting].append(row)
         return list(dict.fromkeys(row % len(self.frontier) for row in self._unmet_rows[group]))

@@ -1,7 +1,10 @@
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 
 #include "check.hpp"
+#include "mrpbench_local/costmap/beams.hpp"
 #include "mrpbench_local/costmap/costmap.hpp"
 #include "mrpbench_local/costmap/footprint.hpp"
 
@@ -89,6 +92,67 @@ TEST("a scan marks where its beams end, and the next one clears the cells that i
   CHECK(map.at(frame.cell({1.4, 0.0})) == 254);
   map.clear();
   CHECK(count(map, 254) == 0);
+}
+
+TEST("a line passes through the cells along which it is walked, and no others") {
+  for (int x = -7; x <= 7; ++x) {
+    for (int y = -7; y <= 7; ++y) {
+      std::vector<Cell> along;
+      line({2, 3}, {2 + x, 3 + y}, [&](Cell c) { return along.push_back({c.x - 2, c.y - 3}), true; });
+      for (int u = -8; u <= 8; ++u) {
+        for (int v = -8; v <= 8; ++v) {
+          CHECK(Line({2, 3}, {2 + x, 3 + y}).holds({u, v}) == (std::ranges::count(along, Cell{u, v}) > 0));
+        }
+      }
+    }
+  }
+}
+
+TEST("a scan clears what its beams pass and marks where they end, as if they were walked along") {
+  CostmapOptions plain = options();
+  plain.inflation_layer = plain.footprint_clearing = false;
+  Costmap map(plain, nullptr);
+  const Frame& frame = map.frame();
+  std::vector<std::uint8_t> expected(frame.size(), kFree);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> range(0.1, 3.0), turn(-3, 3);
+  for (int k = 0; k < 40; ++k) {
+    std::vector<double> ranges = scan(range(random));
+    for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = i % 40 < 20 ? range(random) : i % 97 ? ranges[i] : kNothing;
+    const Pose pose{0.0005 * k, -0.0005 * k, turn(random)};  // the frame stays
+    map.see(pose, {{-0.03, 0}, 3.5}, ranges);
+    map.update(pose);
+    const Point origin{pose.x - 0.03 * std::cos(pose.yaw), pose.y - 0.03 * std::sin(pose.yaw)};
+    Beams beams;
+    beams.aim(ranges.size(), origin, pose.yaw);
+    std::vector<double> lengths(ranges.size());
+    std::vector<Cell> ends(ranges.size());
+    for (std::size_t i = 0; i < ranges.size(); ++i) lengths[i] = std::isfinite(ranges[i]) ? ranges[i] : -1;
+    beams.clip(frame, lengths);
+    beams.end_cells(frame, lengths, ends);
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      if (lengths[i] < 0) continue;
+      const Cell end{std::clamp(ends[i].x, 0, frame.width - 1), std::clamp(ends[i].y, 0, frame.height - 1)};
+      line(frame.cell(origin), end, [&](Cell c) { return expected[frame.index(c)] = kFree, true; });
+    }
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      const Cell end = frame.cell(beams.end(i, ranges[i] < 2.5 ? ranges[i] : 0));
+      if (ranges[i] < 2.5 && frame.holds(end)) expected[frame.index(end)] = kLethal;
+    }
+    CHECK(map.costs() == expected);
+  }
+}
+
+TEST("cells by products are those by divisions, also of points on borders of cells") {
+  Frame frame{60, 60, 0.05, {-30, 7}};
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> place(-40, 40);
+  for (int k = 0; k < 2000; ++k) {
+    const double x = k % 3 ? place(random) : 0.05 * std::round(place(random)), y = place(random);
+    frame.cells(1, [&](std::size_t) { return Point{x, y}; }, [&](std::size_t, Cell c) {
+      CHECK(c == (Cell{static_cast<int>(std::floor(x / 0.05)) + 30, static_cast<int>(std::floor(y / 0.05)) - 7}));
+    });
+  }
 }
 
 TEST("beams without a return clear only if inf_is_valid is set") {

@@ -97,12 +97,15 @@ TEST("distances to the path are counted along rows and columns") {
   PathGrid path;
   const std::vector<Point> rest{{4.5, 1.5}, {4.5, 5.5}};
   path.take(frame, {1.5, 1.5}, {1.5, 1.5}, rest, {.prune_distance = 100, .shorten = false});
-  path.spread(frame);
-  for (int y = 0; y < 8; ++y) {
-    for (int x = 0; x < 10; ++x) {
-      int nearest = 1000;
-      for (const Cell& c : path.cells()) nearest = std::min(nearest, std::abs(c.x - x) + std::abs(c.y - y));
-      CHECK(path.distance(frame, {x, y}) == nearest);
+  for (int corner = 0; corner < 80; ++corner) {  // also of windows beside the path, and beyond the frame
+    const Cell low{corner % 10 - 1, corner / 10 - 1};
+    path.spread(frame, low, {low.x + corner % 7, low.y + corner % 5});
+    for (int y = 0; y < 8; ++y) {
+      for (int x = 0; x < 10; ++x) {
+        int nearest = 1000;
+        for (const Cell& c : path.cells()) nearest = std::min(nearest, std::abs(c.x - x) + std::abs(c.y - y));
+        CHECK(path.distance(frame, {x, y}) == nearest);
+      }
     }
   }
 }

@@ -53,6 +53,8 @@ class Critic {
   virtual Reason check(const Scene&, Pose) { return kLegal; }
   /// Record the command that was chosen.
   virtual void debrief(const Scene&, Twist) {}
+  /// Metres ahead of the last poses at which it asks how far the path is.
+  virtual double looks_ahead() const { return 0; }
   /// Factor of the scale; 0 = nothing to say, and trajectories are not scored.
   virtual double weight(const Scene&) const { return 1; }
 };

@@ -69,6 +69,7 @@ class Dwb : public Controller {
 
   DwbOptions options_;
   std::vector<Weighted> critics_;
+  double looks_ahead_ = 0;  // metres, the most of all critics
   Sampled sampled_;
   std::optional<Pose> goal_;
   RotateToPath rotate_;

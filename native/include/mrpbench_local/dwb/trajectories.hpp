@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <utility>
 #include <vector>
 
 #include "mrpbench_local/costmap/grid.hpp"
@@ -99,6 +100,8 @@ class EndCells {
   }
   /// Of the points `distance` metres ahead of the last poses.
   const Cells& ahead(double distance);
+  /// The lowest and the highest column and row of the ends and of another cell.
+  std::pair<Cell, Cell> box(Cell with);
 
  private:
   const Frame* frame_ = nullptr;

@@ -32,16 +32,23 @@ class PathGrid {
   /// A point of the plan in each of its cells.
   const std::vector<Point>& points() const { return points_; }
 
-  /// Steps along rows and columns to the nearest cell of the plan.
-  std::int16_t distance(const Frame& frame, Cell c) const { return distance_[frame.index(c)]; }
-  /// Compute the distances; obstacles do not matter.
-  void spread(const Frame& frame);
+  /// Steps along rows and columns to the nearest cell of the plan, or straight beyond its end.
+  int distance(const Frame& frame, Cell c) const {
+    const bool known = c.x >= low_.x && c.y >= low_.y && c.x <= high_.x && c.y <= high_.y;
+    return known ? distance_[frame.index(c)] : distance_from(c);
+  }
+  /// Compute the distances of the cells from `low` to `high`; obstacles do not matter.
+  void spread(const Frame& frame, Cell low, Cell high);
+  void spread(const Frame& frame) { spread(frame, {0, 0}, {frame.width - 1, frame.height - 1}); }
 
  private:
+  int distance_from(Cell c) const;
+
   Point goal_;
   double left_ = 0;
   std::vector<Cell> cells_, beyond_;
   std::vector<Point> points_;
+  Cell low_, high_;  // of the window of distances that are computed
   std::vector<std::int16_t> distance_, away_;
 };
 

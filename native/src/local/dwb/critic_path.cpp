@@ -57,6 +57,8 @@ class Distance : public Critic {
     goal_ = frame.holds(shifted) ? shifted : scene.path->before_end();
   }
 
+  double looks_ahead() const override { return nose_; }
+
   double weight(const Scene& scene) const override {
     if (to_path && near_goal_) return 0;  // near the goal the point ahead of the robot is beyond it
     return scene.costmap->frame().resolution * kHalf;

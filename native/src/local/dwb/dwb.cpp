@@ -98,6 +98,7 @@ Dwb::Dwb(const DwbOptions& options, std::vector<Weighted> critics)
   require(
       motion.vx_samples > 0 && motion.vtheta_samples > 0 && motion.vx_samples <= 1000 && motion.vtheta_samples <= 1000,
       "there must be 1 to 1000 samples of each speed");
+  for (const Weighted& it : critics_) looks_ahead_ = std::max(looks_ahead_, it.critic->looks_ahead());
 }
 
 std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
@@ -119,13 +120,17 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   it.costmap->fetch();
   Buffers& its = Buffers::of_thread();
   its.path.take(frame, {pose.x, pose.y}, path.first, path.rest, options_.pruning);
-  if (!its.path.empty()) its.path.spread(frame);
   const Twist measured{thresholded(it.twist.ahead, options_.min_x_velocity_threshold),
                        thresholded(it.twist.turn, options_.min_theta_velocity_threshold)};
   sampled_ = {pose, measured, std::min(path.speed, speed_to_stop(its.path.left(), frame.resolution)),
               it.costmap};
   its.all.generate(options_.motion, pose, measured, sampled_.fastest);
   its.ends.begin(frame, its.all);
+  if (!its.path.empty()) {
+    const auto [low, high] = its.ends.box(frame.cell({pose.x, pose.y}));
+    const int ahead = whole_below(looks_ahead_ / frame.resolution) + 1;
+    its.path.spread(frame, {low.x - ahead, low.y - ahead}, {high.x + ahead, high.y + ahead});
+  }
   const Scene scene{it.now, pose, measured, *goal_, path.tolerance, it.costmap, &its.path, &its.ends};
   score(scene, its, extra);
   chosen_ = best(scene, its);

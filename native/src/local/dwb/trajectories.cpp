@@ -155,4 +155,14 @@ const EndCells::Cells& EndCells::ahead(double distance) {
   return cells;
 }
 
+std::pair<Cell, Cell> EndCells::box(Cell with) {
+  const Cells& ends = ahead(0);
+  Cell low = with, high = with;
+  for (std::size_t i = 0; i < ends.x.size(); ++i) {
+    low = {std::min(low.x, ends.x[i]), std::min(low.y, ends.y[i])};
+    high = {std::max(high.x, ends.x[i]), std::max(high.y, ends.y[i])};
+  }
+  return {low, high};
+}
+
 }  // namespace mrpbench::local

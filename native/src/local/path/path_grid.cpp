@@ -59,28 +59,46 @@ void PathGrid::take(const Frame& frame, Point robot, Point first, std::span<cons
   left_ = way;
 }
 
-/// Along rows first, for each of the few cells of the path, then along columns.
-MRPBENCH_WIDE void PathGrid::spread(const Frame& frame) {
-  const auto width = static_cast<std::size_t>(frame.width), height = static_cast<std::size_t>(frame.height);
-  distance_.assign(frame.size(), kFar);
-  away_.resize(2 * width);
-  for (std::size_t i = 0; i < away_.size(); ++i) {
-    away_[i] = static_cast<std::int16_t>(std::abs(static_cast<int>(i) - frame.width));
+/// Along rows first, for each of the few cells of the path, then along columns. To the window a cell above or below it
+/// is one of its first or last row, so many steps farther away.
+MRPBENCH_WIDE void PathGrid::spread(const Frame& frame, Cell low, Cell high) {
+  low_ = low = {std::max(low.x, 0), std::max(low.y, 0)};
+  high_ = high = {std::min(high.x, frame.width - 1), std::min(high.y, frame.height - 1)};
+  if (low.x > high.x || low.y > high.y) return;
+  const auto count = static_cast<std::size_t>(high.x - low.x + 1);
+  distance_.resize(frame.size());
+  const auto row_of = [&](int y) { return &distance_[frame.index({low.x, y})]; };
+  for (int y = low.y; y <= high.y; ++y) std::fill_n(row_of(y), count, kFar);
+  if (const auto width = static_cast<std::size_t>(frame.width); away_.size() != 2 * width) {
+    away_.resize(2 * width);
+    for (std::size_t i = 0; i < away_.size(); ++i) {
+      away_[i] = static_cast<std::int16_t>(std::abs(static_cast<int>(i) - frame.width));
+    }
   }
   for (const auto* cells : {&cells_, &beyond_}) {
     for (const Cell& c : *cells) {
-      std::int16_t* const row = &distance_[static_cast<std::size_t>(c.y) * width];
-      const std::int16_t* const along = &away_[width - static_cast<std::size_t>(c.x)];
-      for (std::size_t x = 0; x < width; ++x) row[x] = std::min(row[x], along[x]);
+      const int y = std::clamp(c.y, low.y, high.y);
+      const auto off = static_cast<std::int16_t>(std::abs(c.y - y));
+      std::int16_t* const row = row_of(y);
+      const std::int16_t* const along = &away_[static_cast<std::size_t>(frame.width - c.x + low.x)];
+      for (std::size_t x = 0; x < count; ++x) row[x] = std::min(row[x], static_cast<std::int16_t>(along[x] + off));
     }
   }
-  const auto approach = [&](std::size_t y, std::size_t next) {
-    std::int16_t* const row = &distance_[y * width];
-    const std::int16_t* const beside = &distance_[next * width];
-    for (std::size_t x = 0; x < width; ++x) row[x] = std::min(row[x], static_cast<std::int16_t>(beside[x] + 1));
+  const auto approach = [&](int y, int next) {
+    std::int16_t* const row = row_of(y);
+    const std::int16_t* const beside = row_of(next);
+    for (std::size_t x = 0; x < count; ++x) row[x] = std::min(row[x], static_cast<std::int16_t>(beside[x] + 1));
   };
-  for (std::size_t y = 1; y < height; ++y) approach(y, y - 1);
-  for (std::size_t y = height - 1; y-- > 0;) approach(y, y + 1);
+  for (int y = low.y + 1; y <= high.y; ++y) approach(y, y - 1);
+  for (int y = high.y; y-- > low.y;) approach(y, y + 1);
+}
+
+int PathGrid::distance_from(Cell c) const {
+  int least = kFar;
+  for (const auto* cells : {&cells_, &beyond_}) {
+    for (const Cell& it : *cells) least = std::min(least, std::abs(c.x - it.x) + std::abs(c.y - it.y));
+  }
+  return least;
 }
 
 }  // namespace mrpbench::local
