@@ -64,24 +64,24 @@ class DependencyGraph:
         """i8[m]: the first move of the group of each move."""
         sizes = Paths.of(plan.paths).size
         self._stride = int(sizes.max(initial=0)) + 1
-        self._met = memoryview(counts.reshape(-1).astype(np.int64))
+        self._met = counts.reshape(-1).astype(np.int64).data
         """The number of segments up to which dependencies are met: rows of REACHED, then those of CLEARED."""
         waiting = self._wait_for(np.concatenate([self._dependencies(self.order), self._follows()]))
         unmet = np.bincount(waiting, minlength=len(moves.robot)).astype(np.int32)
         # Numbers from here on are read and written one at a time: views do that faster than arrays.
-        self.group, self.unmet = memoryview(self.group_of_moves), memoryview(unmet)
+        self.group, self.unmet = self.group_of_moves.data, unmet.data
         self._unmet_rows: dict[int, list[int]] | None = None
         """The rows of the unmet dependencies of each group that is next for some robot; None = not known yet."""
-        self.segment, self.robot = memoryview(moves.segment), memoryview(moves.robot)
-        self.first, self.last = memoryview(moves.first[:-1]), memoryview(moves.first[1:])
-        self.lengths = memoryview(sizes)
+        self.segment, self.robot = moves.segment.data, moves.robot.data
+        self.first, self.last = moves.first[:-1].data, moves.first[1:].data
+        self.lengths = sizes.data
         self.rotating = [rotation for first, rotation in self.rotations.items() if not self.unmet[first]]
         """Rotations that are released and not completed."""
         held = unmet[self.group_of_moves] > 0
         held[list(self.requests.needs)] = True  # nothing is granted yet
         at = np.append(np.flatnonzero(held), len(held))
         frontier = np.minimum(at[np.searchsorted(at, moves.first[:-1])], moves.first[1:])
-        self.frontier = memoryview(frontier)
+        self.frontier = frontier.data
         """The first move of each robot that is not released."""
         before = np.append(moves.segment, 0)[frontier - 1] + 1
         released = np.where(frontier == moves.first[:-1], 0, before)
@@ -93,7 +93,7 @@ class DependencyGraph:
         twin = copy.copy(self)
         twin.requests = self.requests.copied()
         for name in ("unmet", "frontier", "_met", "_at"):
-            setattr(twin, name, memoryview(np.array(getattr(self, name))))
+            setattr(twin, name, np.array(getattr(self, name)).data)
         twin.rotating, twin.released = self.rotating.copy(), self.released.copy()
         return twin
 
@@ -102,9 +102,9 @@ class DependencyGraph:
         coded: Int = np.sort(self._unmet_among(dependencies))
         keys, groups = np.divmod(coded, max(1, len(self.moves.robot)))
         begin = np.arange(len(self._met)) * self._stride + np.array(self._met)
-        self._open, self._keys, self._waiting = coded, memoryview(np.append(keys, _NEVER)), memoryview(groups)
+        self._open, self._keys, self._waiting = coded, np.append(keys, _NEVER).data, groups.data
         """The dependencies in order, and the row and number of segments, and the group, of each."""
-        self._at = memoryview(np.searchsorted(keys, begin, side="right"))
+        self._at = np.searchsorted(keys, begin, side="right").data
         """The first dependency on each row that is not met."""
         return groups
 

@@ -1,7 +1,7 @@
 """Requests for doors, lifts and mutexes, and the moves that must not begin before they are granted."""
 
 import copy
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.planning.occupations import NEVER, ResourceOccupation
@@ -45,7 +45,7 @@ class ResourceRequests:
         """Tell whether any robot needs a resource, now or later."""
         return bool(self._open) or any(self._coming)
 
-    def update(self, reached: Int, cleared: Int, frontier: list[int], ready: Iterable[int]) -> None:
+    def update(self, reached: Int, cleared: Int, frontier: Sequence[int], ready: Iterable[int]) -> None:
         """Release and request resources.
 
         Args:

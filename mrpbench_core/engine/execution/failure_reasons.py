@@ -129,13 +129,9 @@ class FailureReasons:
             for holder in self.holders.get(name, ())
         ]
         if (ends := self._next_move(robot)) is not None:
-            order, along_x = self._by_x
-            reach = self.problem.radius.max() + self.problem.radius[robot]
-            low, high = np.searchsorted(along_x, [ends[:, 0].min() - reach, ends[:, 0].max() + reach])
-            beside = np.sort(order[low:high])
-            gap = point_segment_distance(self.pose[beside, :2], *ends)
-            near = gap < self.problem.radius[beside] + self.problem.radius[robot]
-            others += beside[near][np.argsort(gap[near], kind="stable")].tolist()
+            gap = point_segment_distance(self.pose[:, :2], *ends)
+            near = gap < self.problem.radius + self.problem.radius[robot]
+            others += np.flatnonzero(near)[np.argsort(gap[near], kind="stable")].tolist()
         awaited = self.dispatcher_waits_for(robot)
         others += self._due_before(robot) if awaited is None else awaited
         return [other for other in dict.fromkeys(others) if other != robot]
@@ -173,15 +169,8 @@ class FailureReasons:
     @cached_property
     def _left(self) -> Float:
         """Metres f8[n] of each path that are not driven."""
-        position, edges = self.problem.roadmap.position, self.problem.roadmap.edges[self._edges[self._edges >= 0]]
-        way = np.zeros(len(self._edges))
-        way[self._edges >= 0] = np.linalg.norm(position[edges[:, 1]] - position[edges[:, 0]], axis=1)
-        driven = np.append(0.0, np.cumsum(way))
+        position, edges = self.problem.roadmap.position, self.problem.roadmap.edges
+        way = np.append(np.linalg.norm(position[edges[:, 1]] - position[edges[:, 0]], axis=1), 0.0)  # a wait is -1
+        driven = np.append(0.0, np.cumsum(way[self._edges]))
         left: Float = driven[self._ahead[1]] - driven[self._ahead[0]]
         return left
-
-    @cached_property
-    def _by_x(self) -> tuple[Int, Float]:
-        """The robots by their x, and x."""
-        order = np.argsort(self.pose[:, 0])
-        return order, self.pose[order, 0]
