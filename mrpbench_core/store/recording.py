@@ -199,7 +199,7 @@ class Recording:
             parts: dict[str, list[str]] = defaultdict(list)
             for name in sorted(set(self._zip.namelist())):
                 channel, _, part = name.rpartition("/")
-                if part and channel not in ("", "context"):
+                if part and channel != "context" and name != "context.json":
                     parts[channel].append(name)
             self._parts = dict(parts)
             self._times: dict[str, NDArray[Any]] = {}  # by name of a channel of times, which many others share
