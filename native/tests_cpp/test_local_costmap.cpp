@@ -118,7 +118,8 @@ TEST("a scan clears what its beams pass and marks where they end, as if they wer
   std::uniform_real_distribution<double> range(0.1, 3.0), turn(-3, 3);
   for (int k = 0; k < 40; ++k) {
     std::vector<double> ranges = scan(range(random));
-    for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = i % 40 < 20 ? range(random) : i % 97 ? ranges[i] : kNothing;
+    for (std::size_t i = 0; i < ranges.size(); ++i)
+      ranges[i] = i % 40 < 20 ? range(random) : i % 97 ? ranges[i] : kNothing;
     const Pose pose{0.0005 * k, -0.0005 * k, turn(random)};  // the frame stays
     map.see(pose, {{-0.03, 0}, 3.5}, ranges);
     map.update(pose);
@@ -149,9 +150,11 @@ TEST("cells by products are those by divisions, also of points on borders of cel
   std::uniform_real_distribution<double> place(-40, 40);
   for (int k = 0; k < 2000; ++k) {
     const double x = k % 3 ? place(random) : 0.05 * std::round(place(random)), y = place(random);
-    frame.cells(1, [&](std::size_t) { return Point{x, y}; }, [&](std::size_t, Cell c) {
-      CHECK(c == (Cell{static_cast<int>(std::floor(x / 0.05)) + 30, static_cast<int>(std::floor(y / 0.05)) - 7}));
-    });
+    frame.cells(
+        1, [&](std::size_t) { return Point{x, y}; },
+        [&](std::size_t, Cell c) {
+          CHECK(c == (Cell{static_cast<int>(std::floor(x / 0.05)) + 30, static_cast<int>(std::floor(y / 0.05)) - 7}));
+        });
   }
 }
 

@@ -33,10 +33,11 @@ class Dwb : public Controller {
 
   std::optional<Twist> command(const Situation& now, const Extra& extra) override;
 
-  /// Call it before the next scan. The trajectories from which the last command was chosen: names of the `critics`, `twist`, `pose`, raw `score` of
-  /// each critic, `total`, the `reason` why each was dropped, and the `cost`: the total, infinite where there is such a
-  /// reason. Totals of those that were not fully checked are partial. If one was chosen, its poses are `chosen`
-  /// f8[p,3], and `chosen_score` has its scores, multiplied by the scales. Nothing where no trajectories were sampled.
+  /// Call it before the next scan. The trajectories from which the last command was chosen: names of the `critics`,
+  /// `twist`, `pose`, raw `score` of each critic, `total`, the `reason` why each was dropped, and the `cost`: the
+  /// total, infinite where there is such a reason. Totals of those that were not fully checked are partial. If one was
+  /// chosen, its poses are `chosen` f8[p,3], and `chosen_score` has its scores, multiplied by the scales. Nothing where
+  /// no trajectories were sampled.
   Explanation explain() const override;
 
  private:

@@ -122,8 +122,7 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   its.path.take(frame, {pose.x, pose.y}, path.first, path.rest, options_.pruning);
   const Twist measured{thresholded(it.twist.ahead, options_.min_x_velocity_threshold),
                        thresholded(it.twist.turn, options_.min_theta_velocity_threshold)};
-  sampled_ = {pose, measured, std::min(path.speed, speed_to_stop(its.path.left(), frame.resolution)),
-              it.costmap};
+  sampled_ = {pose, measured, std::min(path.speed, speed_to_stop(its.path.left(), frame.resolution)), it.costmap};
   its.all.generate(options_.motion, pose, measured, sampled_.fastest);
   its.ends.begin(frame, its.all);
   if (!its.path.empty()) {
