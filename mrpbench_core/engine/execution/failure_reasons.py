@@ -8,7 +8,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.engine.execution.faults import FaultState, approaches
-from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
+from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.common.geometry import point_segment_distance
 from mrpbench_core.model.execution.motion import Motion
 from mrpbench_core.model.execution.orders import Orders
@@ -150,15 +150,11 @@ class FailureReasons:
 
     def _next_move(self, robot: int) -> Float | None:
         """The ends f8[2,2] of the first move that a robot has not completed."""
-        edges, (first, end) = self._edges, self._ahead[:, robot].tolist()
+        edges, (first, end) = Paths.of(self.plan.paths).edge, self._ahead[:, robot].tolist()
         while first < end and edges[first] < 0:
             first += 1
         roadmap = self.problem.roadmap
         return None if first == end else roadmap.position[roadmap.edges[edges[first]]]
-
-    @cached_property
-    def _edges(self) -> Int32:
-        return Paths.of(self.plan.paths).edge
 
     @cached_property
     def _ahead(self) -> Int:
@@ -171,6 +167,6 @@ class FailureReasons:
         """Metres f8[n] of each path that are not driven."""
         position, edges = self.problem.roadmap.position, self.problem.roadmap.edges
         way = np.append(np.linalg.norm(position[edges[:, 1]] - position[edges[:, 0]], axis=1), 0.0)  # a wait is -1
-        driven = np.append(0.0, np.cumsum(way[self._edges]))
+        driven = np.append(0.0, np.cumsum(way[Paths.of(self.plan.paths).edge]))
         left: Float = driven[self._ahead[1]] - driven[self._ahead[0]]
         return left

@@ -121,21 +121,16 @@ class Recorder:
         if not (last or self.is_due(step)):
             return
         rows, state, motion = self._rows, sample.state, sample.motion
-        rows["time"].append(sample.now)
-        rows["truth"].append(state.pose)
-        rows["truth_twist"].append(state.twist)
-        rows["level"].append(state.level)
+        every = {"time": sample.now, "truth": state.pose, "truth_twist": state.twist, "level": state.level}
+        every |= {"released": sample.orders.released, "reached": motion.reached, "cleared": motion.cleared}
+        for name, values in (every | {"mode": motion.mode, "waits_for": sample.waits_for}).items():
+            rows[name].append(values)
         if sample.estimate is not None and sample.odometry is not None:
             rows["estimate"].append(sample.estimate.pose)
             rows["odometry"].append(np.concatenate([sample.odometry.pose, sample.odometry.twist], axis=1))
             rows["command"].append(motion.twist)
-        rows["released"].append(sample.orders.released)
         if len(sample.orders.speed):
             rows["speed_limit"].append(sample.orders.speed)
-        rows["reached"].append(motion.reached)
-        rows["cleared"].append(motion.cleared)
-        rows["mode"].append(motion.mode)
-        rows["waits_for"].append(sample.waits_for)
         if sample.facility:
             rows["facility"].append(sample.facility)
         if sample.movers is not None:

@@ -1,5 +1,7 @@
 """The discrete graph that planners search."""
 
+from functools import cached_property
+
 import attrs
 import numpy as np
 
@@ -85,15 +87,20 @@ class Roadmap:
         if self.grid is None:
             nearest = [self.nearest(x, y, level) for (x, y), level in zip(points, levels, strict=True)]
             return np.array([vertex if distance <= 1.0 else -1 for vertex, distance in nearest], "i4")
-        rows, columns = self.grid.shape
-        table = np.full(rows * columns, -1, "i4")
-        flat = self.grid.cell[:, 0] * columns + self.grid.cell[:, 1]
-        table[flat[::-1]] = np.arange(len(flat))[::-1]  # the first vertex of each cell
+        table, columns = self._first_of_cell, self.grid.shape[1]
         cell = np.floor((np.atleast_2d(points) - self.grid.origin) / self.grid.cell_size).astype(int)
-        inside = (cell >= 0).all(1) & (cell[:, 0] < columns) & (cell[:, 1] < rows)
-        if len(flat):
-            inside &= np.asarray(levels) == self.level[0]  # a raster has one level
+        inside = (cell >= 0).all(1) & (cell[:, 0] < columns) & (cell[:, 1] < self.grid.shape[0])
+        inside &= np.asarray(levels) == (self.level[0] if len(self.level) else 0)  # a raster has one level
         return np.where(inside, table[np.where(inside, cell[:, 1] * columns + cell[:, 0], 0)], -1).astype("i4")
+
+    @cached_property
+    def _first_of_cell(self) -> Int32:
+        """The first vertex i4[rows * columns] in each cell of the raster, -1 = none."""
+        assert self.grid is not None
+        table = np.full(self.grid.shape[0] * self.grid.shape[1], -1, np.int32)
+        flat = self.grid.cell[::-1, 0] * self.grid.shape[1] + self.grid.cell[::-1, 1]
+        table[flat] = np.arange(len(flat))[::-1]
+        return table
 
     def facing(self, vertices: Int32, yaw: Float) -> Int32:
         """Return the vertices i4[n] at the places of `vertices` i4[n] whose headings are nearest to `yaw` f8[n].
