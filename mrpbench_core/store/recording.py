@@ -105,7 +105,7 @@ class RecordedRun:
             scenario=instance.scenario,
             problem=instance.problem,
             result=result,
-            routes=tuple(routes),
+            routes=routes,
             goal=ends_of(routes),
             assigned=assigned,
             planner_assigns=instance.assigned is None,

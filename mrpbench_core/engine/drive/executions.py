@@ -1,5 +1,7 @@
 """Chooses how a plan is executed: with physics, by its schedule, in steps of a simulator, or not at all."""
 
+from collections.abc import Sequence
+
 import attrs
 
 from mrpbench_core.engine.drive.discrete import DiscreteExecution
@@ -29,7 +31,7 @@ def execution_of(inputs: RunInputs, instance: Instance, plan: FirstPlan) -> Exec
     assigned = instance.tasks_of(plan.result.plan)
     router = instance.router(assigned, config.plan_filter)
     assert plan.result.plan is not None
-    context = _context(inputs, instance, plan.result, assigned, tuple(router(plan.result.plan)))
+    context = _context(inputs, instance, plan.result, assigned, router(plan.result.plan))
     if config.execution == "schedule_only":
         return ScheduledExecution(inputs, context)
     if config.simulator is not None and config.simulator.executes_runs:
@@ -43,7 +45,7 @@ def _context(
     instance: Instance,
     result: PlanResult,
     assigned: tuple[int, ...] | None = None,
-    routes: tuple[Route, ...] = (),
+    routes: Sequence[Route] = (),
 ) -> RunContext:
     """The context of the run before its execution."""
     config = inputs.config

@@ -21,7 +21,7 @@ class RecordedPlan:
 
     time: float
     """Simulated second since which it is in force."""
-    routes: tuple[Route, ...]
+    routes: Sequence[Route]
     plan: Plan | None
     """None where nothing is known but the routes."""
 

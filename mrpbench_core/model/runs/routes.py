@@ -1,6 +1,6 @@
 """The routes of all plans of an execution, from the channels `route_...` of its recording."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import attrs
@@ -69,7 +69,7 @@ class RouteHistory:
         last = self._last()
         return tuple(map(_route, last)), self._plan(last)
 
-    def plans(self) -> Iterator[tuple[float, tuple[Route, ...], Plan | None]]:
+    def plans(self) -> Iterator[tuple[float, Sequence[Route], Plan | None]]:
         """Yield the second since which a plan is in force, its routes, and itself if it is known."""
         yield 0.0, self._context.routes, self._context.result.plan
         whole = list(self._first)

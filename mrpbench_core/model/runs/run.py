@@ -1,6 +1,6 @@
 """A run as metrics and formats see it."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import attrs
@@ -31,7 +31,7 @@ class RunContext:
     problem: Problem
     result: PlanResult
     """The first plan."""
-    routes: tuple[Route, ...]
+    routes: Sequence[Route]
     """The routes of the first plan. In a finished run: of the last plan, which begins with everything driven before."""
     goal: tuple[tuple[float, float, float], ...]
     """Final goal x, y (metres), yaw (NaN = any) of each robot: where its path ends."""
@@ -83,7 +83,7 @@ class FinishedRun:
     alike: tuple[frozenset[str], ...] = ()
     """Channels that one source gave, so that comparing them would say nothing; only where others recorded the run."""
 
-    first_routes: tuple[Route, ...] | None = None
+    first_routes: Sequence[Route] | None = None
     """The routes of the first plan; None = those of the context, because no plan came after it."""
     ended: bool = True
     """False where others recorded the run and the recording does not show how it ended."""

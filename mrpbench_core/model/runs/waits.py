@@ -172,7 +172,7 @@ class _Explanation:
         self.reason[samples, robot] = reason
         self.culprit[samples, robot] = culprit
 
-    def _by_holders(self, routes: tuple[Route, ...], window: slice) -> None:
+    def _by_holders(self, routes: Sequence[Route], window: slice) -> None:
         """Name the robot that was let onto the next waypoint and has not cleared it."""
         visits = defaultdict(list)
         places = [_places(route) for route in routes]

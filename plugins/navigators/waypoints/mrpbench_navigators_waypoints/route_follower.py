@@ -110,10 +110,11 @@ class RouteFollower:
 
     def adopt(self, routes: Sequence[Route], cut: Int32 | None = None) -> None:
         """Continue with routes that begin with the released parts of the old ones, but for `cut` i4[n] segments."""
-        self.tables = RouteTables(routes, self._rules, self._clearances)
+        joined = Routes.of(routes)
+        self.tables = RouteTables(joined, self._rules, self._clearances)
         self.corners: Float = self.tables.corners
         tables = self.tables.arrays(self._beyond_bends)
-        tables["any_yaw"] = self._rules.turn_ahead or not np.isnan(Routes.of(routes).waypoint[:, 2]).all()
+        tables["any_yaw"] = self._rules.turn_ahead or not np.isnan(joined.waypoint[:, 2]).all()
         self._native.adopt(tables, cut)
         self._read_progress()
 

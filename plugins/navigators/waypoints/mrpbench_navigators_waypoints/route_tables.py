@@ -156,10 +156,12 @@ class RouteTables:
 
     def _arrival(self, waypoint: Float, row: Int, heading: Float, rules: ArrivalRules) -> Float:
         goal = self.first + self.goal
-        tolerance = np.full(len(waypoint), rules.waypoint_tolerance)
-        tolerance[goal] = rules.xy_goal_tolerance
+        arrival: Float = np.empty((len(waypoint), 6))
+        arrival[:, :2] = waypoint[:, :2]
+        arrival[:, 2] = rules.waypoint_tolerance
+        arrival[goal, 2] = rules.xy_goal_tolerance
         into = np.concatenate([np.full((1, 2), np.nan), heading[:-1]])[: len(heading)]  # NaN at each first corner
-        along = into[row]
-        lateral = along[:, 0] * 0 + rules.passing_tolerance
-        along[goal], lateral[goal] = np.nan, np.nan
-        return np.column_stack([waypoint[:, :2], tolerance, along, lateral])
+        arrival[:, 3:5] = into[row]
+        arrival[:, 5] = arrival[:, 3] * 0 + rules.passing_tolerance
+        arrival[goal, 3:] = np.nan
+        return arrival
