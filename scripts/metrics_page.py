@@ -16,7 +16,7 @@ STAGES = {
     "planning": ("Planning", ("planning",)),
     "dispatching": ("Dispatching", ("delay", "draws", "waiting", "deadlock")),
     "control": ("Control and safety", ("clearance", "contact", "smoothness", "stops", "tracking", "barn")),
-    "execution": ("Execution as a whole", ("execution", "throughput", "efficiency", "fairness")),
+    "execution": ("Execution as a whole", ("execution", "throughput", "efficiency", "energy", "fairness")),
     "tasks": ("Tasks over time", ("tasks",)),
     "people": ("People", ("people",)),
 }
