@@ -6,7 +6,7 @@ rmf_battery does.
 
 import numpy as np
 
-from mrpbench_core.api import Bool, Float, Int, Int16
+from mrpbench_core.api import Float, Int, Int16
 from mrpbench_energy.site import Chargers, Energy
 
 STEP = 0.5
@@ -55,8 +55,8 @@ class Ledger:
         if not np.isfinite(seconds):
             return 0.0
         battery = self._energy.battery
-        stands = ((abs(before) < STANDS) & (abs(twist) < STANDS)).all(axis=1)
-        self.at = self._served(pose, level, stands)
+        robots = np.flatnonzero((np.maximum(abs(before), abs(twist)) < STANDS).all(axis=1))
+        self.at = self._served(pose, level, robots)
         charging = self.at >= 0
         motion, devices = battery.motion(before, twist, seconds), battery.ambient * seconds
         self.used += motion + devices
@@ -66,10 +66,9 @@ class Ledger:
         self.charge = np.clip(self.charge + gained - spent, 0.0, 1.0)
         return seconds
 
-    def _served(self, pose: Float, level: Int16, stands: Bool) -> Int:
-        """The charger i8[n] that serves each robot, -1 = none."""
+    def _served(self, pose: Float, level: Int16, robots: Int) -> Int:
+        """The charger i8[n] that serves each of those that stand, -1 = none."""
         at = np.full(len(pose), -1)
-        robots = np.flatnonzero(stands)
         if not len(robots):
             return at
         chargers = self._chargers

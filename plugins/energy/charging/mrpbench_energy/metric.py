@@ -1,6 +1,7 @@
 """What a fleet used and charged, from its true motion."""
 
 from collections.abc import Mapping
+from itertools import pairwise
 from typing import ClassVar
 
 import attrs
@@ -59,9 +60,9 @@ class EnergyUse(Metric):
         least, steps, places = ledger.charge.copy(), list[float](), list[Int]()
         channels = (run.channel(name) for name in ("time", "truth", "truth_twist", "level"))
         for now, pose, twist, level in zip(*channels, strict=True):
-            if seconds := ledger.update(float(now), pose, twist, level):
+            if step := ledger.update(float(now), pose, twist, level):
                 least = np.minimum(least, ledger.charge)
-                steps.append(seconds)
+                steps.append(step)
                 places.append(ledger.at)
         if not steps:
             return {column.name: None for column in self.columns}
@@ -84,7 +85,6 @@ class EnergyUse(Metric):
 
 def _charges(at: Int, seconds: Float) -> int:
     """How often a robot charges, given its charger i8[k] in steps of some `seconds` f8[k]."""
-    begins = np.flatnonzero(np.diff(at, prepend=-1) != 0)
-    ends = np.append(begins[1:], len(at))
-    spans = [seconds[begin:end].sum() for begin, end in zip(begins, ends, strict=True) if at[begin] >= 0]
+    bounds = [0, *(np.flatnonzero(np.diff(at)) + 1).tolist(), len(at)]
+    spans = [seconds[begin:end].sum() for begin, end in pairwise(bounds) if at[begin] >= 0]
     return sum(bool(span >= SHORTEST) for span in spans)
