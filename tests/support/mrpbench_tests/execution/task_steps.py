@@ -63,7 +63,12 @@ class TaskSteps:
         robots, now = len(self.problem), self.tick * self.problem.roadmap.tick
         nobody = np.zeros(robots, bool)
         pose = np.column_stack([self._roadmap.position[self.at], np.zeros(robots)])
-        state = State(pose=pose, twist=np.zeros((robots, 2)), level=self._roadmap.level[self.at], contacts=np.empty((0, 2), np.int32))
+        state = State(
+            pose=pose,
+            twist=np.zeros((robots, 2)),
+            level=self._roadmap.level[self.at],
+            contacts=np.empty((0, 2), np.int32),
+        )
         held = nobody if stopped is None else stopped
         self.tasks.begin(now, state, self.at, held, nobody if given_up is None else given_up)
         moving = (self._way[-1] != self.at).any()
