@@ -17,7 +17,7 @@ STAGES = {
     "dispatching": ("Dispatching", ("delay", "draws", "waiting", "deadlock")),
     "localization": ("Localisation", ("localization",)),
     "control": ("Control and safety", ("clearance", "contact", "smoothness", "stops", "tracking", "barn")),
-    "execution": ("Execution as a whole", ("execution", "throughput", "efficiency", "fairness")),
+    "execution": ("Execution as a whole", ("execution", "throughput", "efficiency", "energy", "fairness")),
     "tasks": ("Tasks over time", ("tasks",)),
     "people": ("People", ("people",)),
 }

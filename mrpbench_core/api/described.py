@@ -44,6 +44,10 @@ class DescribedOption(Protocol):
         """Of numbers, None if unbounded."""
 
     @property
+    def usual(self) -> tuple[float, float] | None:
+        """Of numbers, from where to where a search looks for better values; the metadata of the field hold it."""
+
+    @property
     def unit(self) -> str:
         """Of numbers, an empty text if none."""
 
@@ -102,6 +106,7 @@ def described(rows: Iterable[D], declare: Declare[D] = as_option) -> Callable[[t
         annotations = {}
         for row in rows:
             annotations[row.name], field = declare(row)
+            field.metadata["usual"] = row.usual
             setattr(cls, row.name, field)
         cls.__annotations__ = annotations | inspect.get_annotations(cls)
         return cls

@@ -1,12 +1,13 @@
 """Contract of the kind *task source*."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import ClassVar
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.model.common.arrays import Float, Int16
 from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_core.model.worlds.world import World
@@ -29,6 +30,14 @@ class TaskStream(ABC):
 
         Their indices count on, from 0, and no `release` is later than `now`.
         """
+
+    def elsewhere(self, now: float, state: State) -> Mapping[int, tuple[float, float, int] | None]:  # noqa: ARG002
+        """Return the robots that take no task for now, such as those that charge, each with where it goes instead.
+
+        Called every control period in which no plan is pending, with simulated seconds and the true state. A robot
+        first finishes the task that it has begun. A place is x, y (metres) and level; None: the robot makes room.
+        """
+        return {}
 
     @property
     def places(self) -> tuple[Float, Int16] | None:

@@ -16,7 +16,18 @@ _MPPI_CRITICS = (
 )
 _METRICS = (
     *("planning", "execution", "barn", "clearance", "contact", "deadlock", "delay", "draws", "efficiency"),
-    *("fairness", "localization", "people", "smoothness", "stops", "tasks", "throughput", "tracking", "waiting"),
+    *(
+        "energy",
+        "fairness",
+        "localization",
+        "people",
+        "smoothness",
+        "stops",
+        "tasks",
+        "throughput",
+        "tracking",
+        "waiting",
+    ),
 )
 _PLANNERS = (
     *("astar", "prioritized", "cbs", "ecbs", "eecbs", "cbs_ta", "ita_cbs", "ecbs_ta", "ita_ecbs"),
@@ -42,6 +53,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.recoveries": ("back_up", "clear", "spin", "wait"),
         "mrpbench.scenarios": ("barn", "movingai"),
         "mrpbench.simulators": ("planar",),
+        "mrpbench.task_sources": ("charging",),
         "mrpbench.worlds": _WORLDS,
     },
     "mrpbench-analysis": {"mrpbench.commands": ("analyze", "calibrate", "compare")},

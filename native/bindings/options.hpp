@@ -3,6 +3,7 @@
 
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -98,6 +99,9 @@ inline void bind_options(nb::module_& module) {
           "above", [](const Parameter& it) { return it.info.range.above; }, "`least` itself is excluded.")
       .def_prop_ro(
           "most", [](const Parameter& it) { return it.info.range.most; }, "Of numbers, None if unbounded.")
+      .def_prop_ro(
+          "usual", [](const Parameter& it) { return it.info.range.usual; },
+          "Of numbers, from where to where a search looks for better values; None if nothing is said.")
       .def_prop_ro(
           "unit", [](const Parameter& it) { return it.info.range.unit; }, "Of numbers, an empty text if none.")
       .def_prop_ro(

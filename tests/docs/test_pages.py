@@ -11,7 +11,7 @@ HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 FOLLOWED_ELSEWHERE = {"planner-native", "planner-external"}
 """Pages that need a compiler or other programs; tests in `tests/cli` follow them."""
-SLOW = {"lifelong", "my-map", "people", "policies", "publish", "real-fleet", "replays"}
+SLOW = {"charging", "lifelong", "my-map", "people", "policies", "publish", "real-fleet", "replays"}
 """Pages that take half a minute or more: `make pages` follows them, `make test` all others."""
 PAGES = [
     page

@@ -3,6 +3,7 @@
 import json
 import sys
 
+import mrpbench_energy
 import pytest
 from mrpbench_worlds_standard.shipped import FOLDER
 
@@ -105,6 +106,10 @@ def required(kind, name, folder):
         ("task_source", "poisson"): {"rate": 6.0},
         ("task_source", "pickup_delivery"): {"rate": 6.0, "pickups": tuple(places[:2]), "dropoffs": tuple(places[2:4])},
         ("task_source", "trace"): {"file": folder / "arrivals.txt"},
+        ("task_source", "charging"): {
+            "tasks": load(named("task_source", "poisson"))(rate=6.0),
+            "energy": mrpbench_energy.Energy(chargers=tuple(places[:2])),
+        },
         ("task_source", "file"): {"file": folder / "tasks.csv"},
         ("crowd", "dynabarn"): {
             "worlds": folder / "dynabarn.csv",

@@ -147,7 +147,7 @@ class ExecutionLoop(ControlLoop):
         given_up = reactions.update()
         if tasks is not None:
             head = heads(replanner.problem, replanner.moves, released)
-            tasks.begin(now, head, (self._motion.mode == ABORTED) | reactions.held, given_up)
+            tasks.begin(now, self._state, head, (self._motion.mode == ABORTED) | reactions.held, given_up)
             wish = wish or tasks.reason(now)
         if reason := replanner.reason(now, view, wish):
             problem = reactions.restricted(replanner.problem, replanner.plan, released, view.cleared)

@@ -7,7 +7,7 @@ time or a wanted yaw, and the robot visits those before the last one without a s
 
 import math
 import time
-from collections.abc import Sequence, Set
+from collections.abc import Mapping, Sequence, Set
 from itertools import takewhile
 from typing import Protocol
 
@@ -26,8 +26,12 @@ from mrpbench_core.engine.execution.queue_problems import QueueProblems
 from mrpbench_core.engine.execution.reactions import reaches
 from mrpbench_core.engine.execution.task_board import Job, TaskBoard, TaskEvent
 from mrpbench_core.model.common.arrays import Bool, Int
+from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.scenario import Task
+
+ELSEWHERE = -1
+"""Stands for the task of a robot that goes to a place instead of taking tasks."""
 
 
 class TaskRecorder(Protocol):
@@ -74,6 +78,8 @@ class TaskManager:
         self._next = 0
         self._head: Int = problem.start.astype(np.int64)
         self._aborted: Bool = np.zeros(len(problem), bool)
+        self._elsewhere: Mapping[int, tuple[float, float, int] | None] = {}
+        """See `TaskStream.elsewhere`."""
         self._unassigned = True
         """Tasks or robots have changed since the last assignment."""
         self._sequences = sequences
@@ -107,11 +113,12 @@ class TaskManager:
         """True if no task was done and the planner finds no plan."""
         return self._failures > 0 and self._board.finished == 0
 
-    def begin(self, now: float, head: Int, aborted: Bool, given_up: Bool) -> None:
+    def begin(self, now: float, state: State, head: Int, aborted: Bool, given_up: Bool) -> None:
         """Take in the tasks released until `now`, and have them assigned.
 
         Args:
             now: simulated seconds.
+            state: the true one.
             head: i8[n] vertices at which robots come to rest if nothing more is released.
             aborted: bool[n]: the robot gave up, or is out of order for now; its tasks that are not begun go to others.
             given_up: bool[n]: the robot will not go on with the task that it has begun.
@@ -121,8 +128,13 @@ class TaskManager:
         tasks = check_released(self._stream.released(now, self._board.finished))
         for task in tasks:
             self._take(now, task)
+        places = self._stream.elsewhere(now, state)
+        if places != self._elsewhere:
+            self._board.changed |= {robot for robot, _ in places.items() ^ self._elsewhere.items()}
+            self._elsewhere = {**places}
+        aborted = aborted | np.isin(self._robots, [*places])
         if (aborted != self._aborted).any():
-            self._aborted, self._unassigned = aborted.copy(), True
+            self._aborted, self._unassigned = aborted, True
         self._head = head
         if self._unassigned:
             self._assign(now)
@@ -246,10 +258,11 @@ class TaskManager:
         resting: list[Sequence[Errand]] = []
         moving: list[Sequence[Errand]] = []
         for way in filter(None, ways):
-            if math.isnan(self._board.jobs[way[0].task].since):
-                moving.append(way)
-            else:
+            job = self._board.jobs.get(way[0].task)
+            if self._head[way[0].robot] in way[0].yaws if job is None else not math.isnan(job.since):
                 resting.append([way[0].at([*way[0].yaws][:1]), *way[1:]])  # it is there
+            else:
+                moving.append(way)
         moving.sort(key=lambda way: way[0].task)
         if self._failures and moving:
             first = self._failures % len(moving)
@@ -276,6 +289,9 @@ class TaskManager:
     def _ahead(self, robot: int) -> list[Errand]:
         """The errands to which a plan leads a robot: the next one and, if it need not rest there, those after it."""
         ahead: list[Errand] = []
+        if (place := self._elsewhere.get(robot)) is not None and not self._board.queues[robot]:
+            vertex = int(self._roadmap.locate(np.array([place[:2]]), np.array([place[2]], np.int16))[0])
+            return [Errand(robot, ELSEWHERE, vertex, {vertex: math.nan})]
         for job in self._board.queue(robot):
             for number in range(job.errand, len(job.places)):
                 ahead.append(Errand(robot, job.task.index, number, job.yaws[number]))
@@ -290,4 +306,4 @@ class TaskManager:
 
     def _is_done(self, errand: tuple[int, int]) -> bool:
         job = self._board.jobs.get(errand[0])
-        return job is None or job.errand > errand[1]
+        return errand[0] != ELSEWHERE and (job is None or job.errand > errand[1])

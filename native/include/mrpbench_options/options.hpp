@@ -24,18 +24,24 @@ struct ValueRange {
   std::optional<double> least, most;
   bool above = false;
   std::string unit;
+  std::optional<std::pair<double, double>> usual;  // where a search looks for better values
+
+  ValueRange usually(double low, double high) && {
+    usual = {low, high};
+    return std::move(*this);
+  }
 };
 inline ValueRange any(std::string unit) {
-  return {std::nullopt, std::nullopt, false, std::move(unit)};
+  return {std::nullopt, std::nullopt, false, std::move(unit), std::nullopt};
 }
 inline ValueRange at_least(double least, std::string unit = "") {
-  return {least, std::nullopt, false, std::move(unit)};
+  return {least, std::nullopt, false, std::move(unit), std::nullopt};
 }
 inline ValueRange above(double least, std::string unit = "") {
-  return {least, std::nullopt, true, std::move(unit)};
+  return {least, std::nullopt, true, std::move(unit), std::nullopt};
 }
 inline ValueRange within(double least, double most, std::string unit = "") {
-  return {least, most, false, std::move(unit)};
+  return {least, most, false, std::move(unit), std::nullopt};
 }
 
 /// The description of an option, without the struct that holds it.

@@ -26,6 +26,9 @@ class Option:
     def most(self) -> float | None:
         """Of numbers, None if unbounded."""
     @property
+    def usual(self) -> tuple[float, float] | None:
+        """Of numbers, from where to where a search looks for better values; None if nothing is said."""
+    @property
     def unit(self) -> str:
         """Of numbers, an empty text if none."""
     @property

@@ -51,10 +51,10 @@ CriticKind kind_of(double weight) {
   preset.cost_weight = weight;
   Description<Options> rows = Options::description();
   rows.push_back({"enabled", static_cast<bool Options::*>(&Weighting::enabled), "use it"});
-  rows.push_back({"cost_weight", static_cast<double Options::*>(&Weighting::cost_weight), at_least(0),
+  rows.push_back({"cost_weight", static_cast<double Options::*>(&Weighting::cost_weight), at_least(0).usually(0, 20),
                   "weight among the other critics; 0 = off"});
-  rows.push_back(
-      {"cost_power", static_cast<int Options::*>(&Weighting::cost_power), within(1, 8), "power of the weighted score"});
+  rows.push_back({"cost_power", static_cast<int Options::*>(&Weighting::cost_power), within(1, 8).usually(1, 2),
+                  "power of the weighted score"});
   return {[rows, preset](const OptionValues& values) {
             const Options options = configured(rows, values, preset);
             return WeightedCritic{"", options.enabled ? static_cast<float>(options.cost_weight) : 0.0f,

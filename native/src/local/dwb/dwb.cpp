@@ -56,7 +56,7 @@ Description<DwbOptions> DwbOptions::nav2() {
   Description<DwbOptions> rows;
   append(rows, MotionOptions::description(), &DwbOptions::motion);
   append(rows,
-         Description<Pruning>{{"prune_distance", &Pruning::prune_distance, above(0, "m"),
+         Description<Pruning>{{"prune_distance", &Pruning::prune_distance, above(0, "m").usually(0.5, 2),
                                "ignore parts of the path that are farther away"},
                               {"shorten_transformed_plan", &Pruning::shorten,
                                "use prune_distance; if false, half the size of the costmap"}},

@@ -7,21 +7,22 @@ namespace mrpbench::local {
 
 Description<MppiOptions> MppiOptions::nav2() {
   using M = MppiOptions;
-  return {{"batch_size", &M::batch_size, within(1, 100000), "number of samples"},
+  return {{"batch_size", &M::batch_size, within(1, 100000).usually(500, 2000), "number of samples"},
           {"time_steps", &M::time_steps, within(2, 1000), "steps of a sample"},
           {"model_dt", &M::model_dt, within(0.001, 10, "s"), "duration of a step; not shorter than the control period"},
           {"iteration_count", &M::iteration_count, within(1, 100), "updates per period"},
-          {"temperature", &M::temperature, above(0), "how much worse samples count less; small = the best alone"},
-          {"gamma", &M::gamma, at_least(0), "how much controls far from the last ones cost"},
-          {"vx_std", &M::vx_std, above(0, "m/s"), "standard deviation of sampled speeds"},
-          {"wz_std", &M::wz_std, above(0, "rad/s"), "standard deviation of sampled turn rates"},
+          {"temperature", &M::temperature, above(0).usually(0.1, 0.5),
+           "how much worse samples count less; small = the best alone"},
+          {"gamma", &M::gamma, at_least(0).usually(0.005, 0.05), "how much controls far from the last ones cost"},
+          {"vx_std", &M::vx_std, above(0, "m/s").usually(0.1, 0.4), "standard deviation of sampled speeds"},
+          {"wz_std", &M::wz_std, above(0, "rad/s").usually(0.2, 0.8), "standard deviation of sampled turn rates"},
           {"vx_max", &M::vx_max, above(0, "m/s"), "highest speed, within the robot's limit"},
           {"vx_min", &M::vx_min, any("m/s"), "lowest speed, within the robot's limit; negative = may drive back"},
           {"wz_max", &M::wz_max, above(0, "rad/s"), "highest turn rate, within the robot's limit"},
           {"ax_max", &M::ax_max, above(0), "acceleration, within the robot's limit, m/s^2"},
           {"ax_min", &M::ax_min, any(""), "deceleration, negative, m/s^2"},
           {"az_max", &M::az_max, above(0), "acceleration of turns, within the robot's limit, rad/s^2"},
-          {"prune_distance", &M::prune_distance, above(0, "m"), "ignore the path that is farther along"},
+          {"prune_distance", &M::prune_distance, above(0, "m").usually(1, 3), "ignore the path that is farther along"},
           {"retry_attempt_limit", &M::retry_attempt_limit, within(0, 100), "new attempts when all samples collide"},
           {"open_loop", &M::open_loop, "start from the last command instead of the measured velocity"},
           {"regenerate_noises", &M::regenerate_noises, "draw new noise in every period"},
@@ -33,7 +34,7 @@ Description<MppiOptions> MppiOptions::nav2() {
           {"model_delay_wz", &M::model_delay_wz, at_least(0, "s"),
            "samples begin with the turn rates that were commanded so long ago"},
           {"sgf_order", &M::sgf_order, within(1, 2), "order of the filter that smooths the controls"},
-          {"collision_lookahead_time", &M::collision_lookahead_time, above(0, "s"),
+          {"collision_lookahead_time", &M::collision_lookahead_time, above(0, "s").usually(1, 3),
            "check the command for collisions up to this time"}};
 }
 

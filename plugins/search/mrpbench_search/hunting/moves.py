@@ -1,9 +1,10 @@
 """Moves of a hunt: new cases, and cases near another one.
 
 Robots that never meet break nothing. New cases therefore lead pairs of robots along one edge in opposite directions at
-the same time. The edge begins at any vertex, or, more often, at one of a kind (`Space.kinds`): all kinds have the same
-probability, so that a junction of which there is one is tried as often as those of which there are many. In half of the
-new cases all pairs meet at one vertex.
+the same time, or all robots through one vertex. The edge begins at any vertex, or, more often, at one of a kind
+(`Space.kinds`): all kinds have the same probability, so that a junction of which there is one is tried as often as
+those of which there are many. In half of the new cases all pairs meet at one vertex. Of several cases that moves make,
+the one is taken in which most robots would meet if they drove alone (`meetings`).
 """
 
 from collections.abc import Callable, Sequence
@@ -16,9 +17,12 @@ from mrpbench_core.config.faults import OF_ROBOTS
 from mrpbench_core.model.common.arrays import Int
 from mrpbench_core.model.planning.scenario import Task
 from mrpbench_search.hunting.cases import Case
+from mrpbench_search.hunting.meetings import meetings
 from mrpbench_search.hunting.space import Space
 
 TRIES = 20
+SEVERAL = 8
+"""New cases, and half as many near another one, of which one is taken."""
 EXACT = 1e-3
 """Ticks by which equal ways may differ."""
 SAME_TIME = 1.0
@@ -51,12 +55,22 @@ class Moves:
         )
 
     def new(self) -> Case:
-        """Return a case that is near no other one: a draw in which pairs of robots meet."""
+        """Return a case that is near no other one: a draw in which robots meet."""
+        return max([self._new() for _ in range(SEVERAL)], key=lambda case: meetings(self.space, case))
+
+    def near(self, case: Case) -> Case:
+        """Return a case that differs from another one in one or a few ways."""
+        return max([self._near_to(case) for _ in range(SEVERAL // 2)], key=lambda it: meetings(self.space, it))
+
+    def _new(self) -> Case:
         case = self.drawn(int(self.rng.integers(len(self.space.scenarios))))
-        order = self.rng.permutation(case.robots)
+        order = self.rng.permutation(case.robots).tolist()
         vertex = self._vertex() if self.rng.random() < 0.5 else None
-        for pair in zip(order[::2].tolist(), order[1::2].tolist(), strict=False):
-            case = self._meeting(case, *pair, vertex)
+        if case.robots > 2 and self.rng.random() < 0.5:
+            case = self._crossing(case, order, self._vertex() if vertex is None else vertex)
+        else:
+            for pair in zip(order[::2], order[1::2], strict=False):
+                case = self._meeting(case, *pair, vertex)
         events = (
             event if event.get("at") is None else event | self._elsewhere(case, event | {"place": None})
             for event in case.events
@@ -64,8 +78,7 @@ class Moves:
         case = attrs.evolve(case, events=tuple(events))
         return self._other_people(case)
 
-    def near(self, case: Case) -> Case:
-        """Return a case that differs from another one in one or a few ways."""
+    def _near_to(self, case: Case) -> Case:
         for _ in range(int(self.rng.geometric(0.6))):
             moves = self._applicable(case)
             case = moves[int(self.rng.integers(len(moves)))](case)
@@ -118,6 +131,28 @@ class Moves:
             found = self._placed(self._placed(case, one, start, goals[0]), other, opposite, goals[1])
             if self._has_room(found):
                 return found
+        return case
+
+    def _crossing(self, case: Case, robots: Sequence[int], vertex: int) -> Case:
+        """Lead robots through one vertex at about the same time, as they drive alone, so that they wait for each other.
+
+        A robot for which there is no room stays as it is.
+        """
+        space = self.space
+        to = space.distance[:, vertex]
+        able = np.flatnonzero(np.isfinite(to) & (to > 0))
+        if not len(able):
+            return case
+        time = to[self._near(able[np.argsort(to[able], kind="stable")])]
+        step = float(space.ways[[vertex]].data.min(initial=np.inf))
+        for place, robot in enumerate(robots):
+            within = able[np.abs(to[able] - time) <= (1 + place) * step]
+            for start in self.rng.permutation(within).tolist()[:TRIES]:
+                goal = self._beyond(start, vertex, start)
+                found = case if goal is None else self._placed(case, robot, start, goal)
+                if found is not case and self._has_room(found):
+                    case = found
+                    break
         return case
 
     def _vertex(self) -> int:

@@ -1,4 +1,4 @@
-"""The search for failures, in generations: draws of the study, then new cases and those near the worst ones.
+"""The search for failures, in generations of new cases and those near the worst ones; the first case is a draw.
 
 The cases of a generation follow from the seed of the search and from records, not from the number of workers, so that a
 search with a budget in runs gives the same answer when it is repeated.
@@ -16,7 +16,9 @@ from mrpbench_search.hunting.moves import Moves
 from mrpbench_search.hunting.runs import CaseRuns, Judged
 from mrpbench_search.hunting.shrink import shrink
 
-GENERATION = 8
+GENERATION = 4
+NEW = 3
+"""One of so many cases is new."""
 ELITE = 6
 """Cases from which local moves begin."""
 REPEATS = 20
@@ -62,7 +64,7 @@ class Hunt:
 
     def run(self, most: int | None = None) -> str:
         """Search until the budget is spent, or `most` different failures are found; return why it ended."""
-        cases = [self.moves.drawn(index) for index in range(GENERATION)]
+        cases = [self.moves.drawn(0), *(self.moves.new() for _ in range(GENERATION - 1))]
         try:
             while most is None or len(self.failures) < most:
                 judged = self.runs.judge(cases, "case", self.tried + 1)
@@ -114,12 +116,12 @@ class Hunt:
         failure.again = sum(failure.kind in one.verdict.failures for one in judged)
 
     def _next(self) -> list[Case]:
-        """The cases of the next generation: half of them new, half of them near the worst ones so far."""
+        """The cases of the next generation: some of them new, the others near the worst ones so far."""
         rng = self.moves.rng
         flat = len({_margin(one) for one in self._elite}) < 2
         cases: list[Case] = []
         for index in range(GENERATION):
-            if flat or index % 2:
+            if flat or index % NEW == 0:
                 cases.append(self.moves.new())
             else:
                 rank = min(int(rng.geometric(0.5)) - 1, len(self._elite) - 1)

@@ -48,6 +48,8 @@ class Space:
     """f8[V,2]."""
     ways: csr_array
     """f8[V,V] ticks of each edge of the roadmap."""
+    back: csr_array
+    """The same of each edge in the opposite direction."""
     kinds: tuple[Int, ...]
     """Vertices of the roadmap by what is around them; see `_kinds`."""
     room: float
@@ -187,7 +189,7 @@ def _ways(roadmap: Mapping[str, Any], places: Float, levels: Int16) -> dict[str,
     size = len(position)
     weights = np.maximum(allowed[usable], 1e-6)  # an edge without duration is an edge
     graph = csr_array((weights, (edges[usable, 0], edges[usable, 1])), shape=(size, size))
-    return {"vertex": vertex, "ways": graph, "distance": dijkstra(graph, indices=vertex)}
+    return {"vertex": vertex, "ways": graph, "back": graph.T.tocsr(), "distance": dijkstra(graph, indices=vertex)}
 
 
 def _kinds(edges: Int, size: int, resources: Sequence[tuple[str, list[int]]]) -> tuple[Int, ...]:

@@ -51,11 +51,21 @@ class FleetFigures:
     """Share of the robots' time in which they do not get on."""
     failed: int
     """Runs that did not succeed."""
+    lifts: float | None = None
+    """Share of the robots' time in which they wait for lifts; None: not measured."""
+    energy_wh: float | None = None
+    """Used per hour; None: the study has no batteries, as in what follows."""
+    charging: float | None = None
+    """Share of the robots' time in which they charge."""
+    chargers_busy: float | None = None
+    """Share of the chargers' time in which a robot charges."""
+    empty: float = 0.0
+    """Robots that ran empty, in the mean of a run."""
 
     def verdict(self, bound_s: float) -> Verdict:
         """Compare the figures with the bounds."""
         late = self.p95 is None or self.p95.low > bound_s
-        if self.failed or self.growth.verdict is Queues.GROWS or (math.isfinite(bound_s) and late):
+        if self.failed or self.empty or self.growth.verdict is Queues.GROWS or (math.isfinite(bound_s) and late):
             return Verdict.DOES_NOT
         in_time = not math.isfinite(bound_s) or (self.p95 is not None and self.p95.high < bound_s)
         return Verdict.SERVES if self.growth.verdict is Queues.BOUNDED and in_time else Verdict.NOT_SHOWN

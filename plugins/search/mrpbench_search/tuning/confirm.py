@@ -74,11 +74,16 @@ def compare_held_out(
     base, tuned = evaluation([{}, setting], samples)
     excess = [(each, each.excess(tuned.mean(each.column), base.mean(each.column))) for each in constraints]
     return Comparison(
-        where=", ".join(f"{key}={value}" for key, value in evaluation.keep.items()),
+        where=", ".join(f"{key}={_short(value)}" for key, value in evaluation.keep.items()),
         differences=tuple(_difference(base, tuned, column.name) for column in objectives),
         success=(base.mean("succeeded"), tuned.mean("succeeded")),
         broken=tuple(each.text for each, beyond in excess if beyond > 0),
     )
+
+
+def _short(value: Any) -> Any:
+    """An option as users write it: a plugin without options by its name."""
+    return value["plugin"] if isinstance(value, dict) and value.keys() == {"plugin"} else value
 
 
 @attrs.frozen(kw_only=True)

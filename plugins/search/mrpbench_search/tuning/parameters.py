@@ -1,7 +1,8 @@
 """The parameters of a tuning: options with their defaults and ranges.
 
-Without a stated range a number goes from a quarter to four times its default on a logarithmic scale, as far as its
-option allows, and an option with few values takes each of them.
+A number goes over the range that the user states, else over the usual one of its option, widened to the default, else
+from a quarter to four times its default as far as its option allows; on a logarithmic scale unless it may be 0. An
+option with few values takes each of them.
 """
 
 import math
@@ -49,7 +50,7 @@ class Parameter:
 
 
 def read_parameters(point: StudyRun, texts: Sequence[str]) -> list[Parameter]:
-    """Return the parameters that a user names, or the real numbers of the controller.
+    """Return the parameters that a user names, or the real numbers of the controller: those with a usual range, if any.
 
     Args:
         point: a run of the study; gives the defaults.
@@ -72,13 +73,15 @@ def describe_parameters(parcel: Mapping[str, Any], texts: Sequence[str]) -> list
     config = unpack(parcel)
     if texts:
         return [attrs.asdict(_named(config, text)) for text in texts]
-    found = []
     controller: Any = config.controller
-    for field in attrs.fields(type(controller)) if controller is not None else ():
-        value = _default(controller, field)
-        if type(value) is float and value > 0:
-            found.append(attrs.asdict(_parameter(f"controller.{field.alias}", field, value, "")))
-    return found
+    fields = attrs.fields(type(controller)) if controller is not None else ()
+    defaults = {field.alias: _default(controller, field) for field in fields}
+    numbers = [field for field in fields if type(defaults[field.alias]) is float and defaults[field.alias] > 0]
+    known = [field for field in numbers if field.metadata.get("usual")]
+    return [
+        attrs.asdict(_parameter(f"controller.{field.alias}", field, defaults[field.alias], ""))
+        for field in known or numbers
+    ]
 
 
 def _named(config: Any, text: str) -> Parameter:
@@ -117,7 +120,13 @@ def _parameter(key: str, field: Any, default: Any, values: str) -> Parameter:
     elif not values and (isinstance(default, bool) or literals):
         choices = literals or (False, True)
     else:
-        low, high = (float(found[1]), float(found[2])) if values and found else _range(key, default, allows)
+        usual = field.metadata.get("usual")
+        if values and found:
+            low, high = float(found[1]), float(found[2])
+        elif usual:
+            low, high = (*usual,) if default is None else (min(usual[0], default), max(usual[1], default))
+        else:
+            low, high = _range(key, default, allows)
         if low >= high:
             raise InputError(f"--vary {key}: the range {low:g}..{high:g} is empty")
         default = low if default is None else default

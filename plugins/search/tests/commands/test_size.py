@@ -46,6 +46,45 @@ def test_robots_are_added_until_the_budget_is_spent(floor):
     assert "[1/" not in errors
 
 
+ENERGY = "{chargers: ['*'], battery: {capacity: 0.5, voltage: 10, ambient: 100, charging_current: 20}}"
+"""Empty within three minutes; full again in a minute and a half."""
+SHIFT = STUDY.replace("world: {plugin: movingai, file: floor.map, cell_size: 0.5}", "world: office").replace(
+    "roadmap: grid", "roadmap: graph"
+)
+SHIFT = SHIFT.replace(
+    "{plugin: poisson, rate: 1, service: 10 s}", "{plugin: charging, tasks: {plugin: poisson, rate: 1}, energy: ENERGY}"
+)
+SHIFT = SHIFT.replace("[execution, tasks]", "[execution, tasks, {plugin: energy, energy: ENERGY}]").replace(
+    "0..2", "0..1"
+)
+
+
+def test_robots_with_batteries_are_measured_and_priced(floor):
+    Path("shift.yaml").write_text(SHIFT.replace("ENERGY", ENERGY))
+    Path("prices.yaml").write_text("{currency: EUR, robot: 1000, charger: 500, service_hours: 1000, kwh: 0.5}")
+    words = ("--orders", "60/h", "--prices", "prices.yaml", "--budget", "2runs", "--json")
+    code, output, errors = floor("size", "shift.yaml", *words)
+    assert code == 1, errors
+    (fleet,) = json.loads(output)["fleets"]
+    assert fleet["energy_wh"] > 90, "a robot takes at least 100 W, of which a charger gives some"
+    assert fleet["cost_per_hour"] == pytest.approx(1 + fleet["chargers"] / 2 + fleet["energy_wh"] / 2000)
+    assert Path("results/floor-size/size.html").is_file()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("metrics=[execution, tasks]",), "robots have batteries, so add the metric `energy`"),
+        (("metrics=[execution, tasks, energy]",), "the metric `energy` has other batteries or chargers than `tasks`"),
+    ],
+)
+def test_batteries_need_a_metric_that_knows_them(floor, words, message):
+    Path("shift.yaml").write_text(SHIFT.replace("ENERGY", ENERGY))
+    code, _, errors = floor("size", "shift.yaml", "--orders", "60/h", *words)
+    assert code == 2
+    assert message in errors
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

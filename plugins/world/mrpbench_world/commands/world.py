@@ -83,10 +83,10 @@ def run(arguments: argparse.Namespace) -> int:
 
 def examined(words: dict[str, Any]) -> dict[str, Any]:
     """In a worker process: draw and convert a world as requested; return its facts."""
-    from mrpbench_core.checking.world import check_world
     from mrpbench_core.cli.input.world import world_source
     from mrpbench_core.files.robot import load_robot
     from mrpbench_core.model.common.fleet import Fleet
+    from mrpbench_world.facts import check_world
 
     arguments = argparse.Namespace(**words)
     fleet = Fleet(robots=(load_robot(arguments.robot),))

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from mrpbench_world.facts import check_world
 from mrpbench_worlds_standard.shipped import Hospital
 
 from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.checking.reachability import round_trips
-from mrpbench_core.checking.world import check_world
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.run import execute
 from mrpbench_core.files.robot import load_robot

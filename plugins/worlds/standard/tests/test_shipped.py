@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from mrpbench_world.facts import check_world, size
 from mrpbench_worlds_standard.shipped import (
     CASES,
     ENCOUNTERS,
@@ -20,7 +21,6 @@ from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.builtin.roadmaps.lanes import Lanes
 from mrpbench_core.checking.clearance import has_clearance
 from mrpbench_core.checking.components import components
-from mrpbench_core.checking.world import check_world, size
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.testing.fixtures.office import office

@@ -13,6 +13,7 @@ from mrpbench_core.engine.execution.queue_costs import QueueCosts
 from mrpbench_core.engine.execution.task_manager import TaskManager
 from mrpbench_core.engine.execution.visits import Visits
 from mrpbench_core.model.common.arrays import Bool, Int, Int32
+from mrpbench_core.model.execution.state import State
 from mrpbench_core.model.planning.plan import Budget, Paths, Plan
 from mrpbench_core.model.planning.problem import Feature, Problem
 from mrpbench_core.testing.fixtures.room import fleet
@@ -61,8 +62,15 @@ class TaskSteps:
         """
         robots, now = len(self.problem), self.tick * self.problem.roadmap.tick
         nobody = np.zeros(robots, bool)
+        pose = np.column_stack([self._roadmap.position[self.at], np.zeros(robots)])
+        state = State(
+            pose=pose,
+            twist=np.zeros((robots, 2)),
+            level=self._roadmap.level[self.at],
+            contacts=np.empty((0, 2), np.int32),
+        )
         held = nobody if stopped is None else stopped
-        self.tasks.begin(now, self.at, held, nobody if given_up is None else given_up)
+        self.tasks.begin(now, state, self.at, held, nobody if given_up is None else given_up)
         moving = (self._way[-1] != self.at).any()
         if self.tasks.reason(now) or (moving and held.any()):
             self._plan(now, held, deaf)

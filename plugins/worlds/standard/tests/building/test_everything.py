@@ -4,11 +4,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from mrpbench_world.facts import check_world
 from mrpbench_worlds_standard.rmf import Rmf
 
 from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
-from mrpbench_core.checking.world import check_world
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet, RobotModel
 

@@ -1,8 +1,8 @@
 import attrs
 import numpy as np
 import pytest
+from mrpbench_world.facts import check_world, size
 
-from mrpbench_core.checking.world import check_world, size
 from mrpbench_core.model.planning.roadmap import Raster, Roadmap
 from mrpbench_core.model.worlds.occupancy import Occupancy
 from mrpbench_core.model.worlds.world import Door, Lane, Level, Obstacle, Vertex, World
