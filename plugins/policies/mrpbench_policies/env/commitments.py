@@ -33,8 +33,10 @@ def next_cells(state: FleetState, target: Int, actions: Int, rings: bool) -> Int
 
 def _in_rings(state: FleetState, to: Int) -> Bool:
     """Tell which robots, bool[b,n], move in a ring or behind one."""
-    with state.occupied() as occupant:
-        ahead = np.where(to == state.place, -1, occupant[to]).ravel()
+    active = state.active.ravel()
+    occupant = np.full(len(state.maps.blocked), -1, np.int32)
+    occupant[state.place.ravel()[active]] = np.flatnonzero(active)
+    ahead = np.where(to == state.place, -1, occupant[to]).ravel()
     follows = np.append(ahead, -1)  # -1 leads to itself
     for _ in range(int(np.ceil(np.log2(len(follows))))):
         follows = follows[follows]

@@ -5,6 +5,8 @@ from contextlib import redirect_stdout
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from mrpbench_policies.fleet_state import soft
 
 from mrpbench_core.api import InputError
@@ -25,6 +27,7 @@ from mrpbench_policies.env import (
     parallel_env,
 )
 from mrpbench_policies.env.commitments import next_cells
+from mrpbench_policies.env.episode import another
 from mrpbench_policies.observations import CostToGo, PogemaMapf
 from pettingzoo.test import parallel_api_test, parallel_seed_test
 
@@ -94,6 +97,32 @@ def test_a_batch_does_what_its_environments_do_alone(depth, on_target):
                 assert {name: array[environment] for name, array in infos["metrics"].items()} == info["metrics"]
         ended = terminated | truncated
     assert min(episodes) >= 2
+
+
+@pytest.mark.parametrize("on_target", ON_TARGET)
+def test_each_agent_gets_what_is_its_own(on_target):
+    task = Task(on_target=on_target, steps=60)
+    fleet, env = FleetEnv(SCENES, Timed(), task), FleetParallelEnv(SCENES, Timed(), task)
+    fleet.reset(seed=3)
+    env.reset(seed=3)
+    generator, left = np.random.default_rng(1), set()
+    while env.agents:
+        acted, chosen = list(env.agents), generator.integers(0, 5, 4)
+        of_all, _, done, cut, info = fleet.step(chosen)
+        of_each, rewards, ends, cuts, infos = env.step(dict(zip(env.possible_agents, chosen.tolist(), strict=True)))
+        maps, place = env.steps.state.maps, env.steps.state.place[0]
+        assert all(list(values) == acted for values in (of_each, rewards, ends, cuts, infos))
+        for agent in acted:
+            robot = int(agent.removeprefix("robot_"))
+            np.testing.assert_array_equal(of_each[agent], of_all[robot])
+            assert rewards[agent] == info["rewards"][robot]
+            free = [not maps.blocked[place[robot] + offset] for offset in maps.offset]
+            assert infos[agent]["action_mask"].tolist() == ([1, 0, 0, 0, 0] if info["moving"][robot] else free)
+            assert ends[agent] == (rewards[agent] > 0 and on_target != "restart")
+            left |= {agent} if ends[agent] or cuts[agent] else set()
+            assert infos[agent].get("metrics") == info.get("metrics")
+        assert env.agents == [agent for agent in acted if agent not in left]
+        assert bool(env.agents) == (not (done or cut))
 
 
 def test_robots_turn_before_they_move():
@@ -186,6 +215,16 @@ def test_a_study_gives_the_scenario_of_each_seed():
     row, column = one.start[0]
     pose = one.instance.scenario.start[0]
     assert raster.cells(pose[None, :2]).tolist() == [[len(one.blocked) - 1 - row, column]]
+
+
+@given(st.integers(0, 2**32))
+def test_another_goal_is_the_one_that_numpy_chooses(seed):
+    generator = np.random.default_rng(seed)
+    cells = np.sort(generator.choice(1000, int(generator.integers(1, 30)), replace=False))
+    here = int(generator.choice(cells))
+    others = cells[cells != here] if len(cells) > 1 else cells
+    drawn = another(cells, here, np.random.default_rng(seed))
+    assert drawn == np.random.default_rng(seed).choice(others)
 
 
 def test_errors_are_one_line():
