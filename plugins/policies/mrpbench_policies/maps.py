@@ -53,6 +53,13 @@ class Maps:
         """f4[b*size]: 1 at walls and at the ring around each map."""
         return self.blocked.astype(np.float32)
 
+    @cached_property
+    def outside(self) -> Bool:
+        """bool[b*size]: not a cell of a map."""
+        outside = np.ones((self.count, self.height, self.width), bool)
+        outside[:, self.margin : self.margin + self.shape[0], self.margin : self.margin + self.shape[1]] = False
+        return outside.reshape(-1)
+
     def places(self, cells: Int) -> Int:
         """Return the places i8[b,n] of cells i8[b,n,2] (row, column)."""
         return self.places_in(np.arange(self.count)[:, None], cells)

@@ -54,8 +54,8 @@ class PolicyPlanner(Planner):
         None,
         help="the interpreter of another environment, which runs a Python file; none: the file is run with the planner",
     )
-    observation: Literal["pogema", "pogema_pomapf", "pogema_mapf", "mapf_gpt", "cost_to_go"] = option(
-        "pogema", help="what the policy gets of each robot"
+    observation: Literal["pogema", "pogema_pomapf", "pogema_mapf", "mapf_gpt", "primal", "scrimp", "cost_to_go"] = (
+        option("pogema", help="what the policy gets of each robot")
     )
     radius: int = option(5, help="cells to each side in the windows of an observation", validator=between(1, 64))
     shield: Literal["stop", "pibt"] = option(

@@ -1,8 +1,10 @@
 from pathlib import Path
+from typing import get_args
 
 import attrs
 import numpy as np
 import pytest
+from mrpbench_policies.observations import OBSERVATIONS
 from mrpbench_policies.planner import PolicyPlanner
 
 from mrpbench_core.api import Budget, Feature, InputError, PlanStatus, check_plan
@@ -112,6 +114,11 @@ def test_roadmaps_that_are_no_grid_of_single_steps_are_skipped(planner):
     assert planner.skip(wanted) is None
     assert "every move takes one tick" in planner.skip(attrs.evolve(wanted, roadmap=slow))
     assert "vertices are cells" in planner.skip(attrs.evolve(wanted, roadmap=attrs.evolve(wanted.roadmap, grid=None)))
+
+
+def test_all_observations_can_be_chosen():
+    chosen = attrs.fields(attrs.resolve_types(PolicyPlanner)).observation.type
+    assert list(get_args(chosen)) == list(OBSERVATIONS)
 
 
 def test_a_broken_file_is_refused_before_planning(tmp_path):

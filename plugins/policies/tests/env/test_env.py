@@ -28,7 +28,7 @@ from mrpbench_policies.env import (
 )
 from mrpbench_policies.env.commitments import next_cells
 from mrpbench_policies.env.episode import another
-from mrpbench_policies.observations import CostToGo, PogemaMapf
+from mrpbench_policies.observations import OBSERVATIONS, CostToGo, PogemaMapf
 from pettingzoo.test import parallel_api_test, parallel_seed_test
 
 DEPTHS = [Grid(), Timed(delay=0.2, longest=3)]
@@ -60,6 +60,16 @@ def test_other_observations_and_seeds_are_those_of_pettingzoo():
     task = Task(on_target="restart", steps=20)
     quiet(parallel_api_test, FleetParallelEnv(SCENES, Grid(), task, PogemaMapf(2)), 50)
     quiet(parallel_seed_test, lambda: FleetParallelEnv(SCENES, DEPTHS[1], task), 20)
+
+
+@pytest.mark.parametrize("name", OBSERVATIONS)
+def test_observations_are_in_their_spaces(name):
+    env = FleetEnv(SCENES, Grid(), Task(on_target="finish", steps=40), OBSERVATIONS[name](3))
+    observation, _ = env.reset(seed=2)
+    env.action_space.seed(2)
+    for _ in range(30):
+        assert env.observation_space.contains(observation)
+        observation, *_ = env.step(env.action_space.sample())
 
 
 @pytest.mark.parametrize("depth", DEPTHS, ids=lambda depth: type(depth).__name__)
