@@ -86,3 +86,16 @@ def soft(state: FleetState, wish: Int) -> Int:
     to = np.empty_like(wish)
     state.maps.native.soft(state.active, state.place, wish, to)
     return to
+
+
+def in_rings(state: FleetState, to: Int) -> Bool:
+    """Tell which robots, bool[b,n], move in a ring or behind one."""
+    active = state.active.ravel()
+    occupant = np.full(len(state.maps.blocked), -1, np.int32)
+    occupant[state.place.ravel()[active]] = np.flatnonzero(active)
+    ahead = np.where(to == state.place, -1, occupant[to]).ravel()
+    follows = np.append(ahead, -1)  # -1 leads to itself
+    for _ in range(int(np.ceil(np.log2(len(follows))))):
+        follows = follows[follows]
+    in_ring: Bool = (follows[:-1] >= 0).reshape(to.shape)
+    return in_ring

@@ -146,7 +146,7 @@ class FullStackSteps(Steps):
         ends = np.where(paths.size > 0, ends, self._problem.begins)[robots]
         offset = to[robots] - state.place[0, robots]
         action = (offset[:, None] == board.maps.offset).argmax(axis=1)
-        edge = board.edge[board.vertex[state.place[0, robots] % board.maps.size], action]
+        edge = board.leads[state.place[0, robots], action]
         tick = np.full(len(robots), self._tick)
         waits = ends < tick
         count = np.zeros(len(paths), np.int64)
