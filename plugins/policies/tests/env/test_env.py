@@ -202,6 +202,44 @@ def test_bodies_reach_their_goals_in_the_full_stack():
     env.close()
 
 
+def driven(study, steps):
+    """The true poses after each step in which robots go to the right where they can, and the robots."""
+    env = parallel_env(study, "full_stack", Task(on_target="restart", steps=steps))
+    _, infos = env.reset(seed=1)
+    poses = []
+    for _ in range(steps):
+        _, _, _, _, infos = env.step({agent: 4 * int(infos[agent]["action_mask"][4]) for agent in env.agents})
+        poses.append(env.steps.pose.copy())
+        assert not env.steps.contacts
+    return np.array(poses), env.steps
+
+
+def test_bodies_meet_the_delays_and_the_noise_of_the_study():
+    poses, steps = driven(STUDY, 8)
+    assert steps.stops == 0
+    late, steps = driven(STUDY | {"delays": {"p_delay": 0.3, "min_delay": 3}}, 8)
+    assert steps.stops > 0
+    assert (late[..., 0] <= poses[..., 0] + 1e-9).all()
+    assert late[1, :, 0].sum() < poses[1, :, 0].sum()
+    noise = STUDY | {"noise": {"actuation": 0.05, "start_jitter": "3 s"}}
+    noisy, _ = driven(noise, 8)
+    assert not np.array_equal(noisy, poses)
+    np.testing.assert_array_equal(noisy, driven(noise, 8)[0])
+
+
+@pytest.mark.parametrize(
+    ("block", "message"),
+    [
+        ({"delays": {"worst_case": 5}}, "delays: the depth `full_stack` has no adversary"),
+        ({"faults": {"events": [{"kind": "stop", "robot": 0, "at": 1}]}}, "faults: the depth"),
+    ],
+)
+def test_what_bodies_cannot_have_is_refused(block, message):
+    env = parallel_env(STUDY | block, "full_stack")
+    with pytest.raises(InputError, match=message):
+        env.reset(seed=0)
+
+
 def test_with_bodies_the_next_episode_begins_at_the_starts_of_another_scenario():
     scenes = StudyScenes(STUDY)
     env = FleetVectorEnv(scenes, 1, FullStack(config=scenes.config), Task(steps=2))
