@@ -34,12 +34,12 @@ class Maps {
     require(blocked.size() < (1U << 31), "there should be less than 2^31 cells");
   }
 
-  void soft(const Input<bool>& active, const Input<Place>& place, const Input<Place>& wish, const Output<Place>& to) {
+  std::size_t soft(const Input<bool>& active, const Input<Place>& place, const Input<Place>& wish, const Output<Place>& to) {
     require(active.size() == place.size() && wish.size() == place.size() && to.size() == place.size(),
             "arrays should have one value for each robot");
     check(place, 0);
     check(wish, 0);
-    cells_.soft(flat(active), flat(place), flat(wish), flat(to));
+    return cells_.soft(flat(active), flat(place), flat(wish), flat(to));
   }
 
   void overwritten(const Input<bool>& active, const Input<Place>& place, const Input<Place>& to,

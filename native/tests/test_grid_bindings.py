@@ -18,8 +18,9 @@ def arrays(*values, dtype=np.int64):
 def test_robots_of_several_environments_move_at_once():
     to = np.empty((2, 2), np.int64)
     place = arrays([7, 8], [37, 38])
-    maps().soft(np.ones((2, 2), bool), place, place + [[1, 1], [1, -1]], to)
+    refused = maps().soft(np.ones((2, 2), bool), place, place + [[1, 1], [1, -1]], to)
     assert to.tolist() == [[8, 9], [37, 38]]
+    assert refused == 2
 
 
 def test_actions_are_free_where_no_wall_is():

@@ -18,8 +18,11 @@ class Maps:
         """`blocked` bool[b*height*width] is read in each call and may change between two calls."""
     def soft(
         self, active: NDArray[np.bool_], place: NDArray[np.int64], wish: NDArray[np.int64], to: NDArray[np.int64]
-    ) -> None:
-        """Write places after a step in which robots at `place` want to be at `wish`, by the rule `soft` of POGEMA."""
+    ) -> int:
+        """Write places after a step in which robots at `place` want to be at `wish`, by the rule `soft` of POGEMA.
+
+        Returns how many active robots are not where they want to be.
+        """
     def overwritten(
         self, active: NDArray[np.bool_], place: NDArray[np.int64], to: NDArray[np.int64], found: NDArray[np.bool_]
     ) -> None:

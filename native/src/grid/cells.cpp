@@ -16,7 +16,7 @@ void Cells::leave(std::span<const Place> place) {
   for (const Place it : place) occupant_[it] = -1;
 }
 
-void Cells::soft(std::span<const bool> active, std::span<const Place> place, std::span<const Place> wish,
+std::size_t Cells::soft(std::span<const bool> active, std::span<const Place> place, std::span<const Place> wish,
                  std::span<Place> to) {
   const auto robots = static_cast<std::int32_t>(place.size());
   enter(active, place);
@@ -46,11 +46,14 @@ void Cells::soft(std::span<const bool> active, std::span<const Place> place, std
       behind = winner_[place[behind]];
     }
   }
+  std::size_t refused = 0;
   for (std::int32_t i = 0; i < robots; ++i) {
     winner_[to[i]] = -1;
     if (stays_[i]) to[i] = place[i];
+    refused += active[i] && to[i] != wish[i];
   }
   leave(place);
+  return refused;
 }
 
 void Cells::overwritten(std::span<const bool> active, std::span<const Place> place, std::span<const Place> to,

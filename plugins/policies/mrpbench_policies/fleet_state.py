@@ -27,6 +27,8 @@ class FleetState:
     overwritten: Bool
     """bool[b,n]: the robot entered the cell of one with a higher index in the last step. POGEMA 1.4 moves robots one
     after another in its raster of robots, so that the second erases the first, until that one acts again."""
+    refused: int = 0
+    """Active robots that did not get their wish in the last call of `soft`."""
     chosen: NDArray[np.int8]
     """i1[b,n,5]: the last actions chosen, oldest first, -1 = none yet; what became of them is not regarded."""
 
@@ -84,7 +86,7 @@ def soft(state: FleetState, wish: Int) -> Int:
     no two robots share a cell or meet on an edge (`following: allowed`).
     """
     to = np.empty_like(wish)
-    state.maps.native.soft(state.active, state.place, wish, to)
+    state.refused = state.maps.native.soft(state.active, state.place, wish, to)
     return to
 
 

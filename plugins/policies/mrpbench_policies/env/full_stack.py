@@ -136,6 +136,7 @@ class FullStackSteps(Steps):
         actions = np.where(self.moving, self._action, actions)
         to = next_cells(state, self._target, actions, rings=False)
         begins = (to != state.place) & (self._target < 0)
+        self.interventions += int(np.count_nonzero(state.active & ~self.moving & (state.wishes(actions) != to)))
         self._action = actions
         self._target = np.where(to == state.place, -1, to)
         state.remember(actions)
