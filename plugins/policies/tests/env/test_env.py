@@ -1,7 +1,9 @@
 """The environments by the checks of PettingZoo and Gymnasium, with warnings as errors, and by what they promise."""
 
 import io
+import runpy
 from contextlib import redirect_stdout
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -31,6 +33,7 @@ from mrpbench_policies.env.episode import another
 from mrpbench_policies.observations import OBSERVATIONS, CostToGo, PogemaMapf
 from pettingzoo.test import parallel_api_test, parallel_seed_test
 
+SOAK = runpy.run_path(str(Path(__file__).with_name("soak_bodies.py")))
 DEPTHS = [Grid(), Timed(delay=0.2, longest=3)]
 ON_TARGET = ("nothing", "finish", "restart")
 SCENES = RandomScenes(4, 6, 7, 0.2)
@@ -225,6 +228,28 @@ def test_bodies_meet_the_delays_and_the_noise_of_the_study():
     noisy, _ = driven(noise, 8)
     assert not np.array_equal(noisy, poses)
     np.testing.assert_array_equal(noisy, driven(noise, 8)[0])
+
+
+def test_a_policy_drives_bodies_apart_and_interventions_are_counted():
+    pytest.importorskip("onnxruntime", reason="the extra `onnx` is not installed")
+    goals, interventions, contacts, growth = SOAK["drive"](8, 0.4, seed=1)
+    assert goals >= 3
+    assert interventions > 0
+    assert contacts == 0
+    assert growth < SOAK["GROWTH"]
+
+
+def test_interventions_are_actions_that_did_not_begin():
+    counts = []
+    for depth in (Grid(), Timed()):
+        env = FleetParallelEnv(RandomScenes(1, 1, 3, 0.0), depth)
+        env.reset(seed=0)
+        state = env.steps.state
+        state.place[0, 0] = state.maps.places(np.array([[(0, 1)]]))[0, 0]
+        for action in (4, 4, 1, 0):  # right, and into the walls
+            env.step({"robot_0": action})
+        counts.append(env.steps.interventions)
+    assert counts == [2, 2]
 
 
 @pytest.mark.parametrize(
