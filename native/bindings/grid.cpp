@@ -34,7 +34,8 @@ class Maps {
     require(blocked.size() < (1U << 31), "there should be less than 2^31 cells");
   }
 
-  std::size_t soft(const Input<bool>& active, const Input<Place>& place, const Input<Place>& wish, const Output<Place>& to) {
+  std::size_t soft(const Input<bool>& active, const Input<Place>& place, const Input<Place>& wish,
+                   const Output<Place>& to) {
     require(active.size() == place.size() && wish.size() == place.size() && to.size() == place.size(),
             "arrays should have one value for each robot");
     check(place, 0);

@@ -29,7 +29,7 @@ class Cells {
   /// it; whoever would come to a wall or to the cell of a robot that stays, stays as well. Robots that are not active
   /// stay and are in nobody's way. Returns how many active robots are not where they want to be.
   std::size_t soft(std::span<const bool> active, std::span<const Place> place, std::span<const Place> wish,
-            std::span<Place> to);
+                   std::span<Place> to);
 
   /// Writes which active robots enter the cell of an active one with a higher index.
   void overwritten(std::span<const bool> active, std::span<const Place> place, std::span<const Place> to,

@@ -17,7 +17,7 @@ void Cells::leave(std::span<const Place> place) {
 }
 
 std::size_t Cells::soft(std::span<const bool> active, std::span<const Place> place, std::span<const Place> wish,
-                 std::span<Place> to) {
+                        std::span<Place> to) {
   const auto robots = static_cast<std::int32_t>(place.size());
   enter(active, place);
   stays_.resize(place.size());
