@@ -80,6 +80,7 @@ soak: install ## compare with brute force, execute drawn plans a million times, 
 	$(BIN)/python plugins/controllers/dwb/tests/soak_driving.py 1000 0
 	$(BIN)/python plugins/crowds/walking/tests/soak_people.py 60
 	$(BIN)/python plugins/crowds/walking/tests/soak_people.py 60 --crowd orca
+	$(BIN)/python plugins/policies/tests/env/soak_bodies.py 128 60 1
 
 pages: install ## do what every page of the documentation says, in empty folders (ten minutes)
 	MRPBENCH_ALL_PAGES=1 $(BIN)/pytest --numprocesses $(JOBS) --dist worksteal tests/docs
@@ -166,11 +167,12 @@ policy: install ## train the policy that mrpbench-policies ships (25 minutes); A
 	OPENBLAS_NUM_THREADS=1 $(BIN)/python scripts/train_policy.py $(ARGS)
 
 POGEMA := build/pogema/bin
-pogema: install ## compare 100,000 random steps with POGEMA, in its own environment (Python below 3.13); STEPS=1000 for less
+pogema: install ## compare 100,000 random steps with POGEMA, in its own environment (Python below 3.13); STEPS=1000 for less; then speeds, and published results
 	test -x $(POGEMA)/python || python3.11 -m venv build/pogema
 	$(POGEMA)/python -m pip install --quiet --disable-pip-version-check pogema==1.4.0
 	$(BIN)/python plugins/policies/tests/observations/soak_pogema.py $(or $(STEPS),100000) 1
 	$(BIN)/python benchmarks/policies.py
+	$(BIN)/python benchmarks/pogema_tables.py $(ARGS)
 
 slurm: install ## run the array job of the page on clusters on a SLURM cluster of this machine (Debian, root; five minutes)
 	$(BIN)/python scripts/slurm.py

@@ -9,8 +9,9 @@ import argparse
 import statistics
 import subprocess
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from mrpbench_policies.env import FleetParallelEnv, FleetVectorEnv, RandomScenes, Task, parallel_env
@@ -34,14 +35,14 @@ print(STEPS * {ROBOTS} / (time.process_time() - began))
 TASK = Task(on_target="restart", steps=10**6)
 
 
-def rate(step: Callable[[np.ndarray], object], actions: np.ndarray) -> float:
+def rate(step: Callable[[Any], object], actions: Sequence[Any], robots: int) -> float:
     """Robot-steps a second of CPU time; the first few steps, which find components, do not count."""
     for some in actions[:5]:
         step(some)
     began = time.process_time()
     for some in actions[5:]:
         step(some)
-    return actions[5:].size / (time.process_time() - began)
+    return len(actions[5:]) * robots / (time.process_time() - began)
 
 
 def pogema(steps: int) -> float:
@@ -57,7 +58,7 @@ def parallel(steps: int) -> float:
     env = FleetParallelEnv(RandomScenes(ROBOTS, SIDE, SIDE, DENSITY), task=TASK)
     env.reset(seed=0)
     actions = np.random.default_rng(0).integers(0, 5, (steps, ROBOTS))
-    return rate(lambda some: env.step(dict(zip(env.agents, some.tolist(), strict=True))), actions)
+    return rate(env.step, [dict(zip(env.agents, some, strict=True)) for some in actions.tolist()], ROBOTS)
 
 
 def batched(environments: int) -> Callable[[int], float]:
@@ -67,7 +68,8 @@ def batched(environments: int) -> Callable[[int], float]:
         env = FleetVectorEnv(RandomScenes(ROBOTS, SIDE, SIDE, DENSITY), environments, task=TASK)
         env.reset(seed=0)
         count = max(20, steps // environments)
-        return rate(env.step, np.random.default_rng(0).integers(0, 5, (count, environments, ROBOTS)))
+        actions = np.random.default_rng(0).integers(0, 5, (count, environments, ROBOTS))
+        return rate(env.step, actions, environments * ROBOTS)
 
     return measure
 

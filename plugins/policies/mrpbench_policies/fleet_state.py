@@ -1,8 +1,5 @@
 """Where the robots of a batch of environments are, and how they move in one step."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 import attrs
 import numpy as np
 from numpy.typing import NDArray
@@ -30,10 +27,10 @@ class FleetState:
     overwritten: Bool
     """bool[b,n]: the robot entered the cell of one with a higher index in the last step. POGEMA 1.4 moves robots one
     after another in its raster of robots, so that the second erases the first, until that one acts again."""
+    refused: int = 0
+    """Active robots that did not get their wish in the last call of `soft`."""
     chosen: NDArray[np.int8]
     """i1[b,n,5]: the last actions chosen, oldest first, -1 = none yet; what became of them is not regarded."""
-    _occupant: NDArray[np.int32]
-    """i4[b*size] scratch: -1 everywhere between calls."""
 
     @classmethod
     def at(cls, maps: Maps, start: Int, goal: Int) -> "FleetState":
@@ -46,7 +43,6 @@ class FleetState:
             active=np.ones(start.shape, bool),
             overwritten=np.zeros(start.shape, bool),
             chosen=np.full((*start.shape, MEMORY), -1, np.int8),
-            occupant=np.full(len(maps.blocked), -1, np.int32),
         )
 
     @property
@@ -65,26 +61,20 @@ class FleetState:
         wish: Int = self.place + self.maps.offset[actions]
         return wish
 
+    def free_actions(self, moving: Bool) -> NDArray[np.uint8]:
+        """Return which actions lead to free cells, u1[b,n]: stay 1, up 2, down 4, left 8, right 16; of robots that are
+        `moving` bool[b,n], stay only.
+        """
+        bits = np.empty(self.place.shape, np.uint8)
+        self.maps.native.free_actions(self.place, bits)
+        bits[moving] = 1
+        return bits
+
     def move(self, to: Int) -> None:
         """Put the robots at places i8[b,n]."""
-        with self.occupied() as occupant:
-            index = np.arange(to.size, dtype=np.int32).reshape(to.shape)
-            self.overwritten = (occupant[to] > index) & self.active
+        self.overwritten = np.empty(to.shape, bool)
+        self.maps.native.overwritten(self.active, self.place, to, self.overwritten)
         self.place = to
-
-    @contextmanager
-    def occupied(self) -> Iterator[NDArray[np.int32]]:
-        """Lend i4[b*size]: the index of the active robot at each place, counted over all environments, -1 = none."""
-        place, occupant = self.place.ravel(), self._occupant
-        index = np.arange(len(place), dtype=np.int32)
-        if not self.active.all():
-            index = index[self.active.ravel()]
-            place = place[index]
-        occupant[place] = index
-        try:
-            yield occupant
-        finally:
-            occupant[place] = -1
 
 
 def soft(state: FleetState, wish: Int) -> Int:
@@ -95,25 +85,19 @@ def soft(state: FleetState, wish: Int) -> Int:
     robot that stays, stays as well. A robot may enter a cell in the step in which another leaves it, also in a ring. So
     no two robots share a cell or meet on an edge (`following: allowed`).
     """
-    place, to = state.place.ravel(), wish.ravel()
-    index = np.arange(len(place), dtype=np.int32)
-    stays = ~state.active.ravel() | state.maps.blocked[to]
-    to = np.where(stays, place, to)
-    with state.occupied() as occupant:
-        other = occupant[to]
-        swap = (other >= 0) & (other != index)
-        swap &= to[other] == place
-        stays |= swap | (to == place)
-        movers = index[~stays]
-        aims = to[movers]
-        ahead = occupant[aims]
-    first = state.maps.scratch
-    first[aims[::-1]] = movers[::-1]  # of equal places the last one counts, which is that of the first robot
-    lost = first[aims] != movers
-    stays[movers[lost]] = True
-    follows = ~lost & (ahead >= 0)
-    movers, ahead = movers[follows], ahead[follows]
-    while (hindered := stays[ahead]).any():
-        stays[movers[hindered]] = True
-        movers, ahead = movers[~hindered], ahead[~hindered]
-    return np.where(stays, place, to).reshape(wish.shape)
+    to = np.empty_like(wish)
+    state.refused = state.maps.native.soft(state.active, state.place, wish, to)
+    return to
+
+
+def in_rings(state: FleetState, to: Int) -> Bool:
+    """Tell which robots, bool[b,n], move in a ring or behind one."""
+    active = state.active.ravel()
+    occupant = np.full(len(state.maps.blocked), -1, np.int32)
+    occupant[state.place.ravel()[active]] = np.flatnonzero(active)
+    ahead = np.where(to == state.place, -1, occupant[to]).ravel()
+    follows = np.append(ahead, -1)  # -1 leads to itself
+    for _ in range(int(np.ceil(np.log2(len(follows))))):
+        follows = follows[follows]
+    in_ring: Bool = (follows[:-1] >= 0).reshape(to.shape)
+    return in_ring

@@ -4,6 +4,7 @@ from collections import OrderedDict
 from functools import cached_property
 
 import numpy as np
+from mrpbench_native import grid
 from numpy.typing import NDArray
 
 from mrpbench_core.api import Bool, Int
@@ -41,19 +42,23 @@ class Maps:
         """bool[b*size]: walls, and the ring around each map. Beyond it the margin is free, as in POGEMA."""
         self.offset: Int = MOVES[:, 0] * self.width + MOVES[:, 1]
         """i8[5]: what each action adds to a place."""
+        self.native = grid.Maps(self.blocked, self.height, self.width)
+        """What computes on these maps in C++."""
         self._label: NDArray[np.int32] = np.full(len(self.blocked), -1, np.int32)
         self._components: list[Int] = []
         self._distances: OrderedDict[int, NDArray[np.int32]] = OrderedDict()
 
     @cached_property
-    def scratch(self) -> NDArray[np.int32]:
-        """i4[b*size] of any content."""
-        return np.zeros(len(self.blocked), np.int32)
-
-    @cached_property
     def obstacles(self) -> NDArray[np.float32]:
         """f4[b*size]: 1 at walls and at the ring around each map."""
         return self.blocked.astype(np.float32)
+
+    @cached_property
+    def outside(self) -> Bool:
+        """bool[b*size]: not a cell of a map."""
+        outside = np.ones((self.count, self.height, self.width), bool)
+        outside[:, self.margin : self.margin + self.shape[0], self.margin : self.margin + self.shape[1]] = False
+        return outside.reshape(-1)
 
     def places(self, cells: Int) -> Int:
         """Return the places i8[b,n] of cells i8[b,n,2] (row, column)."""
@@ -114,30 +119,11 @@ class Maps:
         return self._components[number]
 
     def _flood(self, goal: int) -> NDArray[np.int32]:
-        base = goal - goal % self.size
-        steps = np.full(self.size, FAR, np.int32)
-        open_cells = ~self.blocked[base : base + self.size]
-        front = np.array([goal - base])
-        step = 0
-        while len(front):
-            steps[front], open_cells[front] = step, False
-            around = (front[:, None] + self.offset[1:]).ravel()
-            around = around[open_cells[around]]
-            open_cells[around] = False
-            front = _distinct(around, steps, step + 1)
-            step += 1
+        steps = np.empty(self.size, np.int32)
+        self.native.distances(goal, steps)
         return steps
 
 
 def strips(field: NDArray[np.float32], length: int) -> NDArray[np.void]:
     """Return a view of f4[k] whose elements are `length` values each, so that indexing copies them at once."""
     return np.ndarray(len(field) - length + 1, np.dtype((np.void, 4 * length)), buffer=field.data, strides=(4,))
-
-
-def _distinct(cells: Int, scratch: NDArray[np.int32], value: int) -> Int:
-    """Return cells without repetition, by writing their indices into `scratch`, which then holds `value` there."""
-    index = np.arange(len(cells))
-    scratch[cells] = index
-    once: Int = cells[scratch[cells] == index]
-    scratch[once] = value
-    return once

@@ -29,19 +29,33 @@ from mrpbench_policies.fleet_state import FleetState
 from mrpbench_policies.observations import OBSERVATIONS, CostToGo, Observation
 from mrpbench_policies.rollout import Rollout
 from mrpbench_policies.shields import SHIELDS
+from mrpbench_policies.timing import timed_paths
 
 SHIPPED = Path(__file__).parent / "weights" / "imitation.onnx"
 """The policy that `scripts/train_policy.py` makes."""
+TOLERANCE = 1e-9
+"""metres."""
 
 
 @attrs.frozen(kw_only=True)
 class PolicyPlanner(Planner):
     """Rolls a learned policy out on the cells of a raster: one call for all robots in each step, until all are at their
     goals. Its statistics count the actions that the shield replaced.
+
+    Where turns or moves take time or robots have footprints, the policy sees robots as points that move one cell in a
+    step all the same. The plan keeps the order in which robots pass each cell, and takes the time that they need.
     """
 
     supports: ClassVar[frozenset[Feature]] = frozenset(
-        {Feature.HORIZON, Feature.SHARED_GOALS, Feature.GOAL_SEQUENCES, Feature.GOAL_SETS}
+        {
+            Feature.EDGE_DURATIONS,
+            Feature.FOOTPRINTS,
+            Feature.GOAL_SEQUENCES,
+            Feature.GOAL_SETS,
+            Feature.HEADINGS,
+            Feature.HORIZON,
+            Feature.SHARED_GOALS,
+        }
     )
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.CONFLICT_FREE, Promise.DETERMINISTIC})
 
@@ -54,8 +68,8 @@ class PolicyPlanner(Planner):
         None,
         help="the interpreter of another environment, which runs a Python file; none: the file is run with the planner",
     )
-    observation: Literal["pogema", "pogema_pomapf", "pogema_mapf", "mapf_gpt", "cost_to_go"] = option(
-        "pogema", help="what the policy gets of each robot"
+    observation: Literal["pogema", "pogema_pomapf", "pogema_mapf", "mapf_gpt", "primal", "scrimp", "cost_to_go"] = (
+        option("pogema", help="what the policy gets of each robot")
     )
     radius: int = option(5, help="cells to each side in the windows of an observation", validator=between(1, 64))
     shield: Literal["stop", "pibt"] = option(
@@ -91,6 +105,9 @@ class PolicyPlanner(Planner):
         board = board_of(problem.roadmap, self.build_observation().radius)
         if isinstance(board, str):
             return board
+        cell = 0.0 if problem.roadmap.grid is None else problem.roadmap.grid.cell_size
+        if Feature.FOOTPRINTS in problem.features and 2 * problem.radius.max() > cell + TOLERANCE:
+            return f"needs robots that fit into a cell of {cell:g} m"
         self.load(board.maps.shape)
         return None
 
@@ -163,14 +180,18 @@ class PolicySession(PlannerSession):
             sampling=self._generator,
             priority=np.zeros(len(problem), np.int64),
         )
+        timed = not board.is_unit or Feature.FOOTPRINTS in problem.features
+        rollout.rings = not timed
         self._resume(rollout)
-        steps = planner.steps if problem.horizon is None else problem.horizon
+        steps = planner.steps if problem.horizon is None else _steps_until(problem.horizon, board, problem)
         done = rollout.run(steps, until, errands.update)
         self._last = rollout
         if done is None or (not done and problem.horizon is None):
             status = PlanStatus.TIMEOUT if done is None else PlanStatus.GAVE_UP
             return PlanResult(status=status, statistics=_statistics(rollout))
-        plan = Plan(paths=paths_of(board, np.array(rollout.trace)))
+        trace = np.array(rollout.trace)
+        paths = timed_paths(board, problem, trace, errands.stops(trace)) if timed else paths_of(board, trace)
+        plan = Plan(paths=paths)
         return PlanResult(status=PlanStatus.SOLVED, plan=plan, statistics=_statistics(rollout))
 
     def _board_of(self, roadmap: Roadmap) -> Board:
@@ -210,6 +231,8 @@ class _Errands:
         self._board, self._problem = board, problem
         self._number: Int = np.zeros(len(problem), np.int64)
         self._goal: list[int] = []
+        self._visits: list[tuple[int, int, int]] = []
+        self._step = 0
         for robot, start in enumerate(problem.start.tolist()):
             self._goal.append(self._choice(robot, start, self._goal))
 
@@ -217,13 +240,24 @@ class _Errands:
         """Return the places i8[n] of the goals now."""
         return self._board.place[self._goal]
 
+    def stops(self, trace: Int) -> list[tuple[int, int, int]]:
+        """Return step, robot and goal of each visit, also of those that last until the end."""
+        ends = (trace[-1] == self.goals()).nonzero()[0].tolist()
+        has_goal = [robot for robot in ends if self._problem.goals[robot]]
+        return [*self._visits, *((len(trace) - 1, robot, self._goal[robot]) for robot in has_goal)]
+
     def update(self, state: FleetState) -> bool:
         """Give robots that have reached a goal the next one; tell whether all have reached their last ones."""
-        vertices = self._board.vertex[state.place[0]]
+        place = state.place[0]
         for robot in np.flatnonzero(state.on_goal[0]).tolist():
-            while self._number[robot] < len(self._problem.goals[robot]) - 1 and self._goal[robot] == vertices[robot]:
+            while (
+                self._number[robot] < len(self._problem.goals[robot]) - 1
+                and self._board.place[self._goal[robot]] == place[robot]
+            ):
+                self._visits.append((self._step, robot, self._goal[robot]))
                 self._number[robot] += 1
-                self._goal[robot] = self._choice(robot, int(vertices[robot]), [])
+                self._goal[robot] = self._choice(robot, self._goal[robot], [])
+        self._step += 1
         state.goal[0] = self.goals()
         last = self._number >= np.array([len(goals) - 1 for goals in self._problem.goals])
         return self._problem.horizon is None and bool((state.on_goal[0] & last).all())
@@ -242,6 +276,13 @@ class _Errands:
         maps, place = self._board.maps, self._board.place
         table = maps.distances(int(place[at]))
         return int(min(free, key=lambda vertex: (int(table[place[vertex]]), vertex)))
+
+
+def _steps_until(horizon: int, board: Board, problem: Problem) -> int:
+    """The steps that robots can make until a tick, if all moves take the time of the fastest one."""
+    moves = np.unique(board.leads[board.leads >= 0])
+    fastest = int(problem.roadmap.duration[:, moves].min(initial=horizon + 1))
+    return -(-horizon // fastest)
 
 
 def _statistics(rollout: Rollout) -> dict[str, float]:

@@ -8,7 +8,7 @@ import numpy as np
 
 from mrpbench_core.api import Int
 from mrpbench_policies.acting import Acting
-from mrpbench_policies.fleet_state import FleetState
+from mrpbench_policies.fleet_state import FleetState, in_rings
 from mrpbench_policies.observations import Observation
 from mrpbench_policies.shields import Shield
 
@@ -38,6 +38,8 @@ class Rollout:
     one is chosen. Adding Gumbel noise draws without replacement (Kool, van Hoof and Welling, ICML 2019)."""
     priority: Int
     """i8[n] steps since each robot was at its goal."""
+    rings: bool = True
+    """Robots may move in a ring, each to the cell of the next."""
     trace: list[Int] = attrs.field(factory=list)
     """Places i8[n] before each step, and after the last one."""
     memories: list[tuple[Memory, np.ndarray]] = attrs.field(factory=list)
@@ -73,6 +75,8 @@ class Rollout:
             scores = scores + self.sampling.gumbel(size=scores.shape)
         actions = scores.argmax(axis=1)
         to = self.shield(state, actions, scores, self.priority)
+        if not self.rings:
+            to = np.where(in_rings(state, to), state.place, to)
         wish = state.wishes(actions)
         illegal = state.maps.blocked[wish]
         self.counts.illegal += int(illegal.sum())

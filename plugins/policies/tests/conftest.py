@@ -24,10 +24,10 @@ class Policy:
 '''
 
 
-@pytest.fixture
-def greedy(tmp_path: Path) -> Path:
+@pytest.fixture(scope="session")
+def greedy(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return a Python file with a policy for `cost_to_go`."""
-    file = tmp_path / "greedy.py"
+    file = tmp_path_factory.mktemp("policy") / "greedy.py"
     file.write_text(GREEDY)
     return file
 

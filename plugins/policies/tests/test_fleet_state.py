@@ -1,9 +1,16 @@
+import runpy
+from pathlib import Path
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from mrpbench_policies.fleet_state import FleetState, soft
 from mrpbench_policies.maps import FAR, Maps
+from mrpbench_policies.observations import PogemaDefault
+
+NUMPY = SimpleNamespace(**runpy.run_path(str(Path(__file__).with_name("numpy_steps.py"))))
 
 
 def at(drawing, cells):
@@ -60,3 +67,29 @@ def test_distances_are_those_of_the_shortest_ways():
     assert len(maps.component(int(state.place[0, 0]))) == 7
     maps.lay(0, np.zeros((3, 3), bool))
     assert maps.distances(int(state.place[0, 0]))[maps.places(cells)[0]].tolist() == [0, 1, 1, 4, 3, 2]
+
+
+@given(st.integers(0, 2**32), st.integers(1, 3), st.integers(1, 7))
+def test_native_steps_and_windows_are_those_in_numpy(seed, environments, radius):
+    """Bit for bit, also with robots that have left the grid and with maps that are laid anew."""
+    generator = np.random.default_rng(seed)
+    blocked = generator.random((environments, *generator.integers(3, 9, 2))) < generator.uniform(0, 0.4)
+    blocked[:, 0] = False
+    maps = Maps(blocked, radius)
+    robots = int(generator.integers(1, 1 + min((~one).sum() for one in blocked)))
+    start, goal = (np.stack([generator.permutation(np.argwhere(~one))[:robots] for one in blocked]) for _ in range(2))
+    state = FleetState.at(maps, maps.places(start), maps.places(goal))
+    for _ in range(4):
+        state.active &= generator.random(state.active.shape) < 0.9
+        wish = state.wishes(generator.integers(0, 5, state.place.shape))
+        to = soft(state, wish)
+        np.testing.assert_array_equal(to, NUMPY.soft(state, wish))
+        entered = NUMPY.overwritten(state, to)
+        state.move(to)
+        np.testing.assert_array_equal(state.overwritten, entered)
+        moving = generator.random(state.active.shape) < 0.2
+        np.testing.assert_array_equal(state.free_actions(moving), NUMPY.free_actions(state, moving))
+        windows = PogemaDefault(radius).observe(state)["observation"]
+        np.testing.assert_array_equal(windows, NUMPY.pogema(state, radius))
+        cleared = blocked[0] & (generator.random(blocked[0].shape) < 0.9)
+        maps.lay(0, cleared)

@@ -1,8 +1,10 @@
 from pathlib import Path
+from typing import get_args
 
 import attrs
 import numpy as np
 import pytest
+from mrpbench_policies.observations import OBSERVATIONS
 from mrpbench_policies.planner import PolicyPlanner
 
 from mrpbench_core.api import Budget, Feature, InputError, PlanStatus, check_plan
@@ -106,12 +108,19 @@ def test_models_are_deterministic_and_sampling_follows_the_seed(tmp_path, models
     assert plans[0] != plans[2]
 
 
-def test_roadmaps_that_are_no_grid_of_single_steps_are_skipped(planner):
+def test_roadmaps_that_are_no_grid_are_skipped(planner):
     wanted = problem(ROOM)
-    slow = attrs.evolve(wanted.roadmap, duration=wanted.roadmap.duration * 2)
     assert planner.skip(wanted) is None
-    assert "every move takes one tick" in planner.skip(attrs.evolve(wanted, roadmap=slow))
     assert "vertices are cells" in planner.skip(attrs.evolve(wanted, roadmap=attrs.evolve(wanted.roadmap, grid=None)))
+    closed = attrs.evolve(wanted.roadmap, duration=-wanted.roadmap.duration)
+    assert "every robot may use" in planner.skip(attrs.evolve(wanted, roadmap=closed))
+    wide = problem(ROOM, radius=0.6, features={Feature.FOOTPRINTS})
+    assert "fit into a cell of 1 m" in planner.skip(wide)
+
+
+def test_all_observations_can_be_chosen():
+    chosen = attrs.fields(attrs.resolve_types(PolicyPlanner)).observation.type
+    assert list(get_args(chosen)) == list(OBSERVATIONS)
 
 
 def test_a_broken_file_is_refused_before_planning(tmp_path):

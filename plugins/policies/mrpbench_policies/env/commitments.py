@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from mrpbench_core.api import Bool, Int
-from mrpbench_policies.fleet_state import FleetState, soft
+from mrpbench_core.api import Int
+from mrpbench_policies.fleet_state import FleetState, in_rings, soft
 
 
 def next_cells(state: FleetState, target: Int, actions: Int, rings: bool) -> Int:
@@ -26,17 +26,6 @@ def next_cells(state: FleetState, target: Int, actions: Int, rings: bool) -> Int
     wish = np.where(reserved[wish], state.place, wish)
     wish = np.where(moving, target, wish)
     to = soft(state, wish)
-    if not rings and (turning := _in_rings(state, to)).any():
+    if not rings and (turning := in_rings(state, to)).any():
         to = soft(state, np.where(turning & ~moving, state.place, wish))
     return to
-
-
-def _in_rings(state: FleetState, to: Int) -> Bool:
-    """Tell which robots, bool[b,n], move in a ring or behind one."""
-    with state.occupied() as occupant:
-        ahead = np.where(to == state.place, -1, occupant[to]).ravel()
-    follows = np.append(ahead, -1)  # -1 leads to itself
-    for _ in range(int(np.ceil(np.log2(len(follows))))):
-        follows = follows[follows]
-    in_ring: Bool = (follows[:-1] >= 0).reshape(to.shape)
-    return in_ring

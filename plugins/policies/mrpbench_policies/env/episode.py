@@ -6,7 +6,7 @@ from typing import Literal
 import attrs
 import numpy as np
 
-from mrpbench_core.api import Bool, Float
+from mrpbench_core.api import Bool, Float, Int
 from mrpbench_policies.fleet_state import FleetState
 from mrpbench_policies.pogema.measures import finishing, one_shot
 
@@ -60,11 +60,10 @@ class Episodes:
             state.active &= ~on_goal
             self._remember(self.reached > 0)
             return on_goal.astype(np.float64), ~state.active, truncated
-        for environment, robot in zip(*(index.tolist() for index in np.nonzero(on_goal)), strict=True):
+        environments, robots = on_goal.nonzero()
+        for environment, robot in zip(environments.tolist(), robots.tolist(), strict=True):
             here = int(state.place[environment, robot])
-            cells = state.maps.component(here)
-            others = cells[cells != here] if len(cells) > 1 else cells
-            state.goal[environment, robot] = self._generators[environment].choice(others)
+            state.goal[environment, robot] = another(state.maps.component(here), here, self._generators[environment])
         return on_goal.astype(np.float64), np.zeros(on_goal.shape, bool), truncated
 
     def measures(self, environment: int) -> dict[str, float]:
@@ -79,3 +78,11 @@ class Episodes:
         self._history.append(on_goal)
         if len(self._history) > 2 * self.task.steps:
             del self._history[: self.task.steps]
+
+
+def another(cells: Int, here: int, generator: np.random.Generator) -> int:
+    """Draw one of the places i8[k], which increase, other than `here`, which is the answer if it is the only one."""
+    if len(cells) == 1:
+        return here
+    number = int(generator.integers(len(cells) - 1))
+    return int(cells[number + (number >= np.searchsorted(cells, here))])

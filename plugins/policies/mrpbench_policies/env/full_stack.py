@@ -10,11 +10,11 @@ from mrpbench_core.api import (
     FleetObservation,
     FleetView,
     Float,
+    InputError,
     Inputs,
     Instance,
     Int,
     Int32,
-    Odometry,
     Paths,
     Plan,
     Problem,
@@ -23,6 +23,9 @@ from mrpbench_core.api import (
 )
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.engine.execution.cutting import driven, shifted, without
+from mrpbench_core.engine.execution.delays import DelayStream
+from mrpbench_core.engine.execution.noise import Disturbances
+from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.model.runs.routing import start_poses
@@ -39,7 +42,8 @@ class FullStack(Depth):
     """Robots with bodies. An action is the next cell; a step takes `seconds`, and robots that are not there yet go on.
 
     Every step adds the moves of the robots that have arrived to a plan, which the dispatcher of the run releases, and
-    its navigator and controller drive in its simulator, as in any run. Robots never move in rings.
+    its navigator and controller drive in its simulator, as in any run. Robots never move in rings. Noise and delays are
+    those of the study, with the streams of a run that has the seed of the scene.
     """
 
     config: RunConfig
@@ -53,6 +57,12 @@ class FullStack(Depth):
         (scene,) = scenes
         if scene.instance is None:
             raise ValueError("the depth `full_stack` needs the scenes of a study")
+        for key in ("faults", "crowds"):
+            if getattr(self.config, key):
+                raise InputError(f"{key}: the depth `full_stack` has none", hint="leave the block out")
+        if self.config.delays.worst_case:
+            message = "delays: the depth `full_stack` has no adversary, who attacks a whole plan"
+            raise InputError(message, hint="leave `worst_case` out")
         return FullStackSteps(self, scene, margin, seed)
 
 
@@ -79,22 +89,30 @@ class FullStackSteps(Steps):
         self._problem = open_problem(instance)
         self._plan = Plan(paths=Paths.of([RobotPath(edge=NONE.astype(np.int32), enter=NONE, leave=NONE)] * robots))
         self._released: Int32 = np.zeros(robots, np.int32)
+        self._driven: Int = np.zeros(robots, np.int64)
+        """Segments that are not part of the plan any more."""
         self.aborted = np.zeros(robots, bool)
         """bool[n]: robots that gave up since the last new move of any."""
         self.contacts: set[tuple[int, int]] = set()
         """Pairs in contact in the last step, as in `State.contacts`."""
+        self.stops = 0
+        """Stops that `delays` has begun so far."""
+        seeds = Seeds(seed, config.repeat)
         router = instance.router((-1,) * robots, "none")
         self._router = attrs.evolve(router, problem=self._problem)
         routes = self._router(self._plan)
         pose = start_poses(routes, instance.scenario.start[:, 2])
         world, fleet = instance.world, instance.fleet
         levels = instance.roadmap.level[self._problem.start]
-        self._simulation = simulator.open(world, fleet, pose, seed, self._period, levels=levels)
+        self._noise = Disturbances(config.noise, fleet, pose, self._period, seeds)
+        self._delays = DelayStream(config.delays, robots, seeds)
+        placed = pose.copy(), seeds.seed_of("simulator"), self._period
+        self._simulation = simulator.open(world, fleet, *placed, levels=levels)
         self._true: State = self._simulation.state
         self._truth = localizer.needs_truth
-        self._localizer = localizer.start(fleet, world, pose, seed)
+        self._localizer = localizer.start(fleet, world, pose, seeds.seed_of("localizer"))
         self._dispatcher = dispatcher.start(self._problem, self._plan)
-        self._navigator = navigator.start(fleet, world, routes, controller, self._period, seed)
+        self._navigator = navigator.start(fleet, world, routes, controller, self._period, seeds.seed_of("navigator"))
         self._motion = Motion(
             twist=np.zeros((robots, 2)),
             reached=np.zeros(robots, "i4"),
@@ -118,6 +136,7 @@ class FullStackSteps(Steps):
         actions = np.where(self.moving, self._action, actions)
         to = next_cells(state, self._target, actions, rings=False)
         begins = (to != state.place) & (self._target < 0)
+        self.interventions += int(np.count_nonzero(state.active & ~self.moving & (state.wishes(actions) != to)))
         self._action = actions
         self._target = np.where(to == state.place, -1, to)
         state.remember(actions)
@@ -146,7 +165,7 @@ class FullStackSteps(Steps):
         ends = np.where(paths.size > 0, ends, self._problem.begins)[robots]
         offset = to[robots] - state.place[0, robots]
         action = (offset[:, None] == board.maps.offset).argmax(axis=1)
-        edge = board.edge[board.vertex[state.place[0, robots] % board.maps.size], action]
+        edge = board.leads[state.place[0, robots], action]
         tick = np.full(len(robots), self._tick)
         waits = ends < tick
         count = np.zeros(len(paths), np.int64)
@@ -165,6 +184,7 @@ class FullStackSteps(Steps):
         self._dispatcher.adopt(problem, plan, cut)
         self._revision += 1
         self._released = self._released - cut
+        self._driven += cut
         self._motion = shifted(self._motion, cut)
         self._problem, self._plan = problem, plan
         self._navigator.adopt(attrs.evolve(self._router, problem=problem)(plan), cut)
@@ -172,8 +192,10 @@ class FullStackSteps(Steps):
     def _drive(self) -> None:
         """Let one control period pass."""
         now, true = self.now, self._true
-        scans = self._simulation.scans()
-        odometry = Odometry(pose=true.pose, twist=true.twist)
+        for _ in self._delays.begun(now):
+            self.stops += 1
+        scans = self._noise.scans(self._simulation.scans())
+        odometry = self._noise.odometry(true)
         estimate: Estimate = self._localizer.update(now, odometry, scans, true.pose if self._truth else None)
         view = FleetView(
             revision=self._revision,
@@ -185,9 +207,13 @@ class FullStackSteps(Steps):
         )
         orders = self._dispatcher.update(now, view)
         self._released = orders.released
+        received = np.where(now < self._noise.start_delay, 0, orders.released).astype(np.int32)
+        orders = attrs.evolve(orders, released=received)
         observation = FleetObservation(estimate=estimate, odometry=odometry, level=true.level, scans=scans)
         self._motion = self._navigator.step(now, observation, orders)
-        self._true = self._simulation.step(Inputs(twist=self._motion.twist))
+        twist = self._noise.actuated(self._motion.twist)
+        twist = self._delays.driven(twist, self._motion.reached + self._driven)
+        self._true = self._simulation.step(Inputs(twist=twist))
         self.contacts.update((int(one), int(other)) for one, other in self._true.contacts)
         self._count += 1
 
@@ -196,9 +222,9 @@ def open_problem(instance: Instance) -> Problem:
     """Return the problem of an instance, with paths that may end anywhere at any time.
 
     Raises:
-        ValueError: robots use doors or lifts.
+        InputError: robots use doors or lifts.
     """
     if instance.roadmap.resources:
-        raise ValueError("the depth `full_stack` has no doors, lifts and mutexes")
+        raise InputError("roadmap: the depth `full_stack` has no doors, lifts and mutexes")
     features = instance.problem.features | {Feature.HORIZON, Feature.COMMITMENTS, Feature.SINCE}
     return attrs.evolve(instance.problem, horizon=0, features=features)

@@ -1,6 +1,7 @@
 """Environments in the parallel form of PettingZoo: robots are agents, which act all at once."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from itertools import repeat
 from pathlib import Path
 from typing import Any, Literal
 
@@ -17,13 +18,18 @@ from mrpbench_policies.env.timed import Timed
 from mrpbench_policies.env.world_model import Depth, Grid, Steps
 from mrpbench_policies.observations import Observation, PogemaDefault
 
+MASKS = [(sum_of_bits >> np.arange(5) & 1).astype(np.int8) for sum_of_bits in range(32)]
+"""i1[5]: whether each action has an effect, for the sums that `FleetState.free_actions` returns."""
+for _mask in MASKS:
+    _mask.setflags(write=False)
+
 
 class FleetParallelEnv(ParallelEnv[str, Any, int]):  # type: ignore[misc] # PettingZoo has no types
     """Robots `robot_0`, `robot_1`, … that go to their goals.
 
-    Actions are 0 stay, 1 up, 2 down, 3 left, 4 right. `infos[agent]["action_mask"]` i1[5] says which have an effect: a
-    robot that is between two cells goes on, whatever its action. At the end of an episode `infos[agent]["metrics"]` has
-    the metrics of POGEMA. Rewards and ends are those of `Task`.
+    Actions are 0 stay, 1 up, 2 down, 3 left, 4 right. `infos[agent]["action_mask"]` i1[5], which cannot be written,
+    says which have an effect: a robot that is between two cells goes on, whatever its action. At the end of an episode
+    `infos[agent]["metrics"]` has the metrics of POGEMA. Rewards and ends are those of `Task`.
 
     Args:
         scenes: where episodes take place; `reset(seed=s)` begins that of seed s, and without a seed the next one.
@@ -51,8 +57,10 @@ class FleetParallelEnv(ParallelEnv[str, Any, int]):  # type: ignore[misc] # Pett
         self.action_spaces = {agent: spaces.Discrete(5) for agent in self.possible_agents}
         self._steps: Steps | None = None
         self._seed = -1
-        self._acting: dict[str, int] = {}
-        """The indices of `agents`."""
+        self._no_reward: dict[str, float] = {}
+        """A reward of 0 for each of `agents`."""
+        self._none: dict[str, bool] = {}
+        """False for each of `agents`."""
 
     def observation_space(self, agent: str) -> spaces.Space[Any]:
         """Return the space of the observations of a robot, the same object each time."""
@@ -69,32 +77,32 @@ class FleetParallelEnv(ParallelEnv[str, Any, int]):  # type: ignore[misc] # Pett
         scene = self._scenes.draw(self._seed)
         self._steps = self._depth.begin([scene], self._observation.radius, self._seed)
         self._episodes = Episodes(self._task, self._steps.state, [self._seed])
-        self.agents = list(self.possible_agents)
-        self._acting = {agent: robot for robot, agent in enumerate(self.agents)}
+        self._begin_acting(list(self.possible_agents))
         return self._observations(), self._infos()
 
     def step(self, actions: Mapping[str, int]) -> tuple[Any, Any, Any, Any, Any]:
         """Let a step pass; return observations, rewards, terminations, truncations and infos of robots that acted."""
         if self._steps is None:
             raise RuntimeError("call `reset` before `step`")
-        chosen = np.array([[actions.get(agent, 0) for agent in self.possible_agents]], np.int64)
-        if ((chosen < 0) | (chosen > 4)).any():
+        agents = self.possible_agents
+        chosen = np.fromiter(map(actions.get, agents, repeat(0)), np.int64, len(agents))
+        if chosen.view(np.uint64).max() > 4:  # numbers below 0 are large ones there
             raise ValueError("actions are 0 to 4")
-        self._steps.step(chosen)
+        self._steps.step(chosen[None])
         rewards, terminated, truncated = self._episodes.after_step()
-        acting = self._acting
+        acting = self.agents
         observations, infos = self._observations(), self._infos()
-        robots, late = [*acting.values()], bool(truncated[0])
-        ends = dict(zip(acting, terminated[0, robots].tolist(), strict=True))
-        cut = {agent: late and not end for agent, end in ends.items()}
-        if late or all(ends.values()):
+        late = bool(truncated[0])
+        any_ends = late or np.count_nonzero(terminated) > 0
+        gained = self._of_acting(rewards[0].tolist()) if np.count_nonzero(rewards) else self._no_reward.copy()
+        ends = self._of_acting(terminated[0].tolist()) if any_ends else self._none.copy()
+        cut = {agent: late and not end for agent, end in ends.items()} if any_ends else ends.copy()
+        if late or (any_ends and all(ends.values())):
             measures = self._episodes.measures(0)
             for agent in acting:
                 infos[agent]["metrics"] = measures
-        gained = dict(zip(acting, rewards[0, robots].tolist(), strict=True))
-        if over := {agent for agent in acting if ends[agent] or cut[agent]}:
-            self.agents = [agent for agent in self.agents if agent not in over]
-            self._acting = {agent: acting[agent] for agent in self.agents}
+        if any_ends:
+            self._begin_acting([] if late else [agent for agent in acting if not ends[agent]])
         return observations, gained, ends, cut, infos
 
     def state(self) -> np.ndarray:
@@ -131,15 +139,26 @@ class FleetParallelEnv(ParallelEnv[str, Any, int]):  # type: ignore[misc] # Pett
 
     def _observations(self) -> dict[str, Any]:
         assert self._steps is not None
-        rows = list(split(self._observation.observe(self._steps.state)))
-        return {agent: rows[robot] for agent, robot in self._acting.items()}
+        return self._of_acting(split(self._observation.observe(self._steps.state)))
 
     def _infos(self) -> dict[str, dict[str, Any]]:
         assert self._steps is not None
-        fleet, moving = self._steps.state, self._steps.moving[0]
-        free = ~fleet.maps.blocked[fleet.place[0][:, None] + fleet.maps.offset]
-        mask = list(np.where(moving[:, None], np.arange(5) == 0, free).astype(np.int8))
-        return {agent: {"action_mask": mask[robot]} for agent, robot in self._acting.items()}
+        bits = self._steps.state.free_actions(self._steps.moving)[0].tolist()
+        if len(self.agents) < len(bits):
+            bits = self._of_acting(bits).values()
+        return {agent: {"action_mask": MASKS[some]} for agent, some in zip(self.agents, bits, strict=True)}
+
+    def _of_acting(self, values: Iterable[Any]) -> dict[str, Any]:
+        """The values of the robots that act, of those of all robots."""
+        values_of = dict(zip(self.possible_agents, values, strict=True))
+        if len(self.agents) == len(values_of):
+            return values_of
+        return {agent: values_of[agent] for agent in self.agents}
+
+    def _begin_acting(self, agents: list[str]) -> None:
+        """Let no other robots act."""
+        self.agents = agents
+        self._no_reward, self._none = dict.fromkeys(agents, 0.0), dict.fromkeys(agents, False)
 
 
 def parallel_env(

@@ -107,6 +107,9 @@ class StudyScenes(Scenes):
         board = board_of(instance.roadmap, 1)
         if isinstance(board, str):
             raise InputError(f"roadmap: the environment {board}")
+        if not board.is_unit:
+            message = "roadmap: the environment needs a roadmap without headings on which every move takes one tick"
+            raise InputError(message, hint="`duration_model: constant`; robots turn in the depth `timed`")
         problem = instance.problem
         if any(len(goals) != 1 or len(goals[0]) != 1 for goals in problem.goals):
             raise InputError("scenario: in the environment every robot has one goal")

@@ -1,6 +1,6 @@
 """Between observations and the spaces of Gymnasium."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import numpy as np
@@ -30,13 +30,11 @@ def joined(arrays: Mapping[str, NDArray[Any]], *rows: int) -> Any:
     return next(iter(shaped.values())) if len(shaped) == 1 else shaped
 
 
-def split(arrays: Mapping[str, NDArray[Any]]) -> Iterator[Any]:
-    """Yield the observation of each robot."""
+def split(arrays: Mapping[str, NDArray[Any]]) -> Iterable[Any]:
+    """Return the observation of each robot."""
     if len(arrays) == 1:
-        yield from next(iter(arrays.values()))
-        return
-    for row in range(len(next(iter(arrays.values())))):
-        yield {name: array[row] for name, array in arrays.items()}
+        return next(iter(arrays.values()))
+    return (dict(zip(arrays, rows, strict=True)) for rows in zip(*arrays.values(), strict=True))
 
 
 def seed_of(seed: int) -> int:

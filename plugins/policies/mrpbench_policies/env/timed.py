@@ -55,6 +55,7 @@ class TimedSteps(Steps):
         state, options = self.state, self._options
         actions = np.where(self.moving, self._action, actions)
         to = next_cells(state, self._target, actions, rings=True)
+        self.interventions += int(np.count_nonzero(state.active & ~self.moving & (state.wishes(actions) != to)))
         self._action = actions
         self._target = np.where(to == state.place, -1, to)
         state.remember(actions)

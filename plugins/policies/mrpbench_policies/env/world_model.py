@@ -18,6 +18,8 @@ class Steps(ABC):
     """A robot counts as being in the cell that it reached last."""
     moving: Bool
     """bool[b,n]: the robot is between two cells; its action in the next step is not regarded."""
+    interventions: int = 0
+    """Actions of robots that could act, and that did not begin because of walls or of other robots."""
 
     @abstractmethod
     def step(self, actions: Int) -> None:
@@ -74,5 +76,6 @@ class GridSteps(Steps):
         """Move all robots."""
         state = self.state
         to = soft(state, state.wishes(actions))
+        self.interventions += state.refused
         state.remember(actions)
         state.move(to)

@@ -2,6 +2,7 @@
 
 from mrpbench_policies.observations.cost_to_go import CostToGo
 from mrpbench_policies.observations.observation import Field, Observation
+from mrpbench_policies.observations.planes import Primal, Scrimp
 from mrpbench_policies.observations.pogema import PogemaDefault, PogemaMapf, PogemaPomapf
 from mrpbench_policies.observations.tokens import MapfGptTokens
 
@@ -10,6 +11,8 @@ OBSERVATIONS: dict[str, type[Observation]] = {
     "pogema_pomapf": PogemaPomapf,
     "pogema_mapf": PogemaMapf,
     "mapf_gpt": MapfGptTokens,
+    "primal": Primal,
+    "scrimp": Scrimp,
     "cost_to_go": CostToGo,
 }
 """The class of each."""
@@ -23,4 +26,6 @@ __all__ = [
     "PogemaDefault",
     "PogemaMapf",
     "PogemaPomapf",
+    "Primal",
+    "Scrimp",
 ]

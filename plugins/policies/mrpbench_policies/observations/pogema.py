@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mrpbench_policies.fleet_state import FleetState
-from mrpbench_policies.maps import strips
 from mrpbench_policies.observations.observation import Field, Observation, agents
 
 FARTHEST = 1024
@@ -27,22 +26,10 @@ class PogemaDefault(Observation):
         return {"observation": Field("f4", (3, self.side, self.side), 0.0, 1.0)}
 
     def observe(self, state: FleetState) -> Mapping[str, NDArray[Any]]:
-        """Return the windows of all robots.
-
-        All are copied at once, row by row, from one canvas: obstacles, robots, and rows with a 1 or without.
-        """
-        maps, place, radius, side = state.maps, state.place.ravel(), self.radius, self.side
-        size = len(maps.blocked)
-        canvas = np.empty(2 * size + 3 * side, np.float32)
-        canvas[:size], canvas[size : 2 * size], canvas[2 * size :] = maps.obstacles, agents(state), 0.0
-        canvas[2 * size + side - 1] = 1.0
-        goal = np.clip(maps.cells(state.goal.ravel()) - maps.cells(place), -radius, radius) + radius
-        rows = np.empty((len(place), 3, side), np.int64)
-        rows[:, 0] = maps.window_rows(place, radius)
-        rows[:, 1] = rows[:, 0] + size
-        rows[:, 2] = 2 * size + 2 * side  # nothing but 0
-        rows[np.arange(len(place)), 2, goal[:, 0]] = 2 * size + side - 1 - goal[:, 1]
-        return {"observation": strips(canvas, side)[rows].view(np.float32).reshape(-1, 3, side, side)}
+        """Return the windows of all robots."""
+        windows = np.empty((state.place.size, 3, self.side, self.side), np.float32)
+        state.maps.native.pogema(state.active & ~state.overwritten, state.place, state.goal, self.radius, windows)
+        return {"observation": windows}
 
 
 class PogemaPomapf(Observation):

@@ -1,10 +1,14 @@
 """The environments by the checks of PettingZoo and Gymnasium, with warnings as errors, and by what they promise."""
 
 import io
+import runpy
 from contextlib import redirect_stdout
+from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from mrpbench_policies.fleet_state import soft
 
 from mrpbench_core.api import InputError
@@ -25,9 +29,11 @@ from mrpbench_policies.env import (
     parallel_env,
 )
 from mrpbench_policies.env.commitments import next_cells
-from mrpbench_policies.observations import CostToGo, PogemaMapf
+from mrpbench_policies.env.episode import another
+from mrpbench_policies.observations import OBSERVATIONS, CostToGo, PogemaMapf
 from pettingzoo.test import parallel_api_test, parallel_seed_test
 
+SOAK = runpy.run_path(str(Path(__file__).with_name("soak_bodies.py")))
 DEPTHS = [Grid(), Timed(delay=0.2, longest=3)]
 ON_TARGET = ("nothing", "finish", "restart")
 SCENES = RandomScenes(4, 6, 7, 0.2)
@@ -57,6 +63,16 @@ def test_other_observations_and_seeds_are_those_of_pettingzoo():
     task = Task(on_target="restart", steps=20)
     quiet(parallel_api_test, FleetParallelEnv(SCENES, Grid(), task, PogemaMapf(2)), 50)
     quiet(parallel_seed_test, lambda: FleetParallelEnv(SCENES, DEPTHS[1], task), 20)
+
+
+@pytest.mark.parametrize("name", OBSERVATIONS)
+def test_observations_are_in_their_spaces(name):
+    env = FleetEnv(SCENES, Grid(), Task(on_target="finish", steps=40), OBSERVATIONS[name](3))
+    observation, _ = env.reset(seed=2)
+    env.action_space.seed(2)
+    for _ in range(30):
+        assert env.observation_space.contains(observation)
+        observation, *_ = env.step(env.action_space.sample())
 
 
 @pytest.mark.parametrize("depth", DEPTHS, ids=lambda depth: type(depth).__name__)
@@ -94,6 +110,32 @@ def test_a_batch_does_what_its_environments_do_alone(depth, on_target):
                 assert {name: array[environment] for name, array in infos["metrics"].items()} == info["metrics"]
         ended = terminated | truncated
     assert min(episodes) >= 2
+
+
+@pytest.mark.parametrize("on_target", ON_TARGET)
+def test_each_agent_gets_what_is_its_own(on_target):
+    task = Task(on_target=on_target, steps=60)
+    fleet, env = FleetEnv(SCENES, Timed(), task), FleetParallelEnv(SCENES, Timed(), task)
+    fleet.reset(seed=3)
+    env.reset(seed=3)
+    generator, left = np.random.default_rng(1), set()
+    while env.agents:
+        acted, chosen = list(env.agents), generator.integers(0, 5, 4)
+        of_all, _, done, cut, info = fleet.step(chosen)
+        of_each, rewards, ends, cuts, infos = env.step(dict(zip(env.possible_agents, chosen.tolist(), strict=True)))
+        maps, place = env.steps.state.maps, env.steps.state.place[0]
+        assert all(list(values) == acted for values in (of_each, rewards, ends, cuts, infos))
+        for agent in acted:
+            robot = int(agent.removeprefix("robot_"))
+            np.testing.assert_array_equal(of_each[agent], of_all[robot])
+            assert rewards[agent] == info["rewards"][robot]
+            free = [not maps.blocked[place[robot] + offset] for offset in maps.offset]
+            assert infos[agent]["action_mask"].tolist() == ([1, 0, 0, 0, 0] if info["moving"][robot] else free)
+            assert ends[agent] == (rewards[agent] > 0 and on_target != "restart")
+            left |= {agent} if ends[agent] or cuts[agent] else set()
+            assert infos[agent].get("metrics") == info.get("metrics")
+        assert env.agents == [agent for agent in acted if agent not in left]
+        assert bool(env.agents) == (not (done or cut))
 
 
 def test_robots_turn_before_they_move():
@@ -163,6 +205,66 @@ def test_bodies_reach_their_goals_in_the_full_stack():
     env.close()
 
 
+def driven(study, steps):
+    """The true poses after each step in which robots go to the right where they can, and the robots."""
+    env = parallel_env(study, "full_stack", Task(on_target="restart", steps=steps))
+    _, infos = env.reset(seed=1)
+    poses = []
+    for _ in range(steps):
+        _, _, _, _, infos = env.step({agent: 4 * int(infos[agent]["action_mask"][4]) for agent in env.agents})
+        poses.append(env.steps.pose.copy())
+        assert not env.steps.contacts
+    return np.array(poses), env.steps
+
+
+def test_bodies_meet_the_delays_and_the_noise_of_the_study():
+    poses, steps = driven(STUDY, 8)
+    assert steps.stops == 0
+    late, steps = driven(STUDY | {"delays": {"p_delay": 0.3, "min_delay": 3}}, 8)
+    assert steps.stops > 0
+    assert (late[..., 0] <= poses[..., 0] + 1e-9).all()
+    assert late[1, :, 0].sum() < poses[1, :, 0].sum()
+    noise = STUDY | {"noise": {"actuation": 0.05, "start_jitter": "3 s"}}
+    noisy, _ = driven(noise, 8)
+    assert not np.array_equal(noisy, poses)
+    np.testing.assert_array_equal(noisy, driven(noise, 8)[0])
+
+
+def test_a_policy_drives_bodies_apart_and_interventions_are_counted():
+    pytest.importorskip("onnxruntime", reason="the extra `onnx` is not installed")
+    goals, interventions, contacts, growth = SOAK["drive"](8, 0.4, seed=1)
+    assert goals >= 3
+    assert interventions > 0
+    assert contacts == 0
+    assert growth < SOAK["GROWTH"]
+
+
+def test_interventions_are_actions_that_did_not_begin():
+    counts = []
+    for depth in (Grid(), Timed()):
+        env = FleetParallelEnv(RandomScenes(1, 1, 3, 0.0), depth)
+        env.reset(seed=0)
+        state = env.steps.state
+        state.place[0, 0] = state.maps.places(np.array([[(0, 1)]]))[0, 0]
+        for action in (4, 4, 1, 0):  # right, and into the walls
+            env.step({"robot_0": action})
+        counts.append(env.steps.interventions)
+    assert counts == [2, 2]
+
+
+@pytest.mark.parametrize(
+    ("block", "message"),
+    [
+        ({"delays": {"worst_case": 5}}, "delays: the depth `full_stack` has no adversary"),
+        ({"faults": {"events": [{"kind": "stop", "robot": 0, "at": 1}]}}, "faults: the depth"),
+    ],
+)
+def test_what_bodies_cannot_have_is_refused(block, message):
+    env = parallel_env(STUDY | block, "full_stack")
+    with pytest.raises(InputError, match=message):
+        env.reset(seed=0)
+
+
 def test_with_bodies_the_next_episode_begins_at_the_starts_of_another_scenario():
     scenes = StudyScenes(STUDY)
     env = FleetVectorEnv(scenes, 1, FullStack(config=scenes.config), Task(steps=2))
@@ -186,6 +288,16 @@ def test_a_study_gives_the_scenario_of_each_seed():
     row, column = one.start[0]
     pose = one.instance.scenario.start[0]
     assert raster.cells(pose[None, :2]).tolist() == [[len(one.blocked) - 1 - row, column]]
+
+
+@given(st.integers(0, 2**32))
+def test_another_goal_is_the_one_that_numpy_chooses(seed):
+    generator = np.random.default_rng(seed)
+    cells = np.sort(generator.choice(1000, int(generator.integers(1, 30)), replace=False))
+    here = int(generator.choice(cells))
+    others = cells[cells != here] if len(cells) > 1 else cells
+    drawn = another(cells, here, np.random.default_rng(seed))
+    assert drawn == np.random.default_rng(seed).choice(others)
 
 
 def test_errors_are_one_line():
