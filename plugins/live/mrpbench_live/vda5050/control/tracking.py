@@ -1,0 +1,97 @@
+"""Poses of a fleet from reports that come now and then: robots drive from report to report, within their limits.
+
+Reports jump: they are rare, late, and as good as the localization of the vehicles. A recording is judged by what robots
+can do, so the recorded robots follow the reports no faster than their models drive, behind by their braking distance.
+"""
+
+from collections import deque
+
+import numpy as np
+
+from mrpbench_core.api import Float, RobotModel, wrapped
+
+NEAR_M, NEAR_RAD = 0.02, 0.1
+"""Metres and radians within which a report counts as reached."""
+BRAKING = 0.8
+"""Share of its acceleration with which a robot brakes, so that it does not overshoot in steps of a control period."""
+
+
+class Tracker:
+    """Follows the reports of a fleet.
+
+    Args:
+        robots: of the fleet.
+        pose: f8[n,3] x, y (metres), yaw (radians) at first.
+        period: of a step, simulated seconds.
+    """
+
+    def __init__(self, robots: tuple[RobotModel, ...], pose: Float, period: float) -> None:
+        self._period = period
+        limits = [(it.max_speed, it.acceleration, it.max_turn_rate, it.turn_acceleration) for it in robots]
+        self._limits = np.array(limits).reshape(-1, 4).T
+        self.pose = pose.copy()
+        """f8[n,3] now."""
+        self.twist = np.zeros((len(robots), 2))
+        """f8[n,2] m/s forward, rad/s."""
+        self._target = pose.copy()
+        self._rest = np.zeros(len(robots))
+        """f8[n] metres from the target through the reports after it."""
+        self._reports: list[deque[tuple[float, float, float]]] = [deque() for _ in robots]
+        self._last = [tuple(row) for row in pose.tolist()]
+        self._behind: set[int] = set()
+        """Robots that have reports after their target."""
+
+    def report(self, robot: int, x: float, y: float, yaw: float) -> None:
+        """Add a report: metres and radians."""
+        before = self._last[robot]
+        if before != (x, y, yaw):
+            self._reports[robot].append((x, y, yaw))
+            self._rest[robot] += np.hypot(x - before[0], y - before[1])
+            self._last[robot] = (x, y, yaw)
+            self._behind.add(robot)
+
+    def step(self) -> None:
+        """Go on by one period."""
+        for robot in list(self._behind):
+            self._advance(robot)
+        period, pose = self._period, self.pose
+        top, acceleration, top_rate, turn_acceleration = self._limits
+        turn = wrapped(self._target[:, 2] - pose[:, 2])
+        rate = np.minimum.reduce(
+            [top_rate, np.sqrt(2 * BRAKING * turn_acceleration * np.abs(turn)), np.abs(turn) / period]
+        )
+        omega = _near(np.copysign(rate, turn), self.twist[:, 1], turn_acceleration * period)
+        heading = pose[:, 2] + omega * period / 2
+        shift = self._target[:, :2] - pose[:, :2]
+        length = np.hypot(shift[:, 0], shift[:, 1])
+        left = length + self._rest
+        speed = np.minimum.reduce([top, np.sqrt(2 * BRAKING * acceleration * left), left / period])
+        velocity = shift * (speed / np.maximum(length, 1e-9))[:, None]
+        cosine, sine = np.cos(heading), np.sin(heading)
+        ahead = _near(velocity[:, 0] * cosine + velocity[:, 1] * sine, self.twist[:, 0], acceleration * period)
+        aside = velocity[:, 1] * cosine - velocity[:, 0] * sine
+        most = np.sqrt(np.maximum(top**2 - ahead**2, 0.0))
+        aside = np.clip(aside, -most, most)
+        moved = np.column_stack([ahead * cosine - aside * sine, ahead * sine + aside * cosine]) * period
+        self.pose = np.column_stack([pose[:, :2] + moved, wrapped(pose[:, 2] + omega * period)])
+        self.twist = np.column_stack([ahead, omega])
+
+    def _advance(self, robot: int) -> None:
+        """Take the next report of a robot for its target once it has reached the one before."""
+        reports, (x, y, yaw) = self._reports[robot], self.pose[robot].tolist()
+        reach = max(NEAR_M, abs(float(self.twist[robot, 0])) * self._period)
+        while reports:
+            there = self._target[robot].tolist()
+            if np.hypot(there[0] - x, there[1] - y) > reach or abs(wrapped(there[2] - yaw)) > NEAR_RAD:
+                return
+            report = reports.popleft()
+            self._rest[robot] -= np.hypot(report[0] - there[0], report[1] - there[1])
+            self._target[robot] = report
+        self._rest[robot] = 0.0
+        self._behind.discard(robot)
+
+
+def _near(wanted: Float, before: Float, change: Float) -> Float:
+    """The values nearest to those wanted that differ from those before by no more than a change."""
+    found: Float = np.clip(wanted, before - change, before + change)
+    return found
