@@ -56,8 +56,8 @@ class _Run:
 class Vda5050Vehicles(Simulator):
     """Foreign vehicles on a broker of MQTT: what they report counts as the truth.
 
-    The vehicle that stands at the start of a robot is this robot. The recorded robot drives from report to report within
-    the limits of its model. Contacts are overlaps of the bodies at these poses.
+    The vehicle that stands at the start of a robot is this robot. The recorded robot drives from report to report
+    within the limits of its model. Contacts are overlaps of the bodies at these poses.
     """
 
     live: ClassVar[bool] = True

@@ -64,13 +64,15 @@ class Tracker:
         heading = pose[:, 2] + omega * period / 2
         shift = self._target[:, :2] - pose[:, :2]
         length = np.hypot(shift[:, 0], shift[:, 1])
-        left = length + self._rest
+        through = np.abs(turn) <= NEAR_RAD  # others stop at their target to turn
+        left = length + np.where(through, np.maximum(self._rest, 0.0), 0.0)
         speed = np.minimum.reduce([top, np.sqrt(2 * BRAKING * acceleration * left), left / period])
         velocity = shift * (speed / np.maximum(length, 1e-9))[:, None]
         cosine, sine = np.cos(heading), np.sin(heading)
         ahead = _near(velocity[:, 0] * cosine + velocity[:, 1] * sine, self.twist[:, 0], acceleration * period)
         aside = velocity[:, 1] * cosine - velocity[:, 0] * sine
-        most = np.sqrt(np.maximum(top**2 - ahead**2, 0.0))
+        off = np.abs(shift[:, 1] * cosine - shift[:, 0] * sine) / period
+        most = np.minimum(np.sqrt(np.maximum(top**2 - ahead**2, 0.0)), off)
         aside = np.clip(aside, -most, most)
         moved = np.column_stack([ahead * cosine - aside * sine, ahead * sine + aside * cosine]) * period
         self.pose = np.column_stack([pose[:, :2] + moved, wrapped(pose[:, 2] + omega * period)])
