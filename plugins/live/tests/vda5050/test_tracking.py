@@ -16,8 +16,10 @@ ROBOT = RobotModel(
     acceleration=0.6,
     turn_acceleration=2.0,
 )
-number = st.floats(-3, 3)
-reports = st.lists(st.tuples(number, number, st.floats(-np.pi, np.pi), st.integers(0, 30)), min_size=1, max_size=12)
+number, speed = st.floats(-3, 3), st.floats(-0.5, 0.8)
+reports = st.lists(
+    st.tuples(number, number, st.floats(-np.pi, np.pi), speed, st.integers(0, 30)), min_size=1, max_size=12
+)
 
 
 @settings(max_examples=60, deadline=None)
@@ -25,8 +27,8 @@ reports = st.lists(st.tuples(number, number, st.floats(-np.pi, np.pi), st.intege
 def test_robots_keep_their_limits_and_arrive(reports):
     tracker = Tracker((ROBOT,), np.zeros((1, 3)), PERIOD)
     poses, steps = [tracker.pose[0]], [steps for *_, steps in reports[:-1]] + [900]
-    for (x, y, yaw, _), count in zip(reports, steps, strict=True):
-        tracker.report(0, x, y, yaw)
+    for (x, y, yaw, speed, _), count in zip(reports, steps, strict=True):
+        tracker.report(0, x, y, yaw, 0.0 if count == 900 else speed)
         for _ in range(count):
             tracker.step()
             poses.append(tracker.pose[0])
@@ -38,6 +40,6 @@ def test_robots_keep_their_limits_and_arrive(reports):
     ahead = (shift[:, 0] * np.cos(heading) + shift[:, 1] * np.sin(heading)) / PERIOD
     assert np.abs(np.diff(ahead, prepend=0.0)).max() <= ROBOT.acceleration * PERIOD + 1e-6
     assert np.abs(np.diff(turn / PERIOD, prepend=0.0)).max() <= ROBOT.turn_acceleration * PERIOD + 1e-6
-    x, y, yaw, _ = reports[-1]
+    x, y, yaw, *_ = reports[-1]
     assert np.hypot(*(poses[-1, :2] - (x, y))) < 0.05
     assert abs(wrapped(poses[-1, 2] - yaw)) < 0.05

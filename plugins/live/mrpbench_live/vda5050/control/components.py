@@ -142,7 +142,7 @@ class _Reported(Simulation):
         for robot, vehicle in enumerate(self._vehicles.robots):
             place = vehicle.place
             if place is not None and place.level == self._levels[robot]:
-                self._tracker.report(robot, place.x, place.y, place.yaw)
+                self._tracker.report(robot, place.x, place.y, place.yaw, place.speed)
         self._tracker.step()
         pose = self._tracker.pose
         contacts = self._overlaps.of(pose, self._levels)

@@ -1,17 +1,19 @@
 """Poses of a fleet from reports that come now and then: robots drive from report to report, within their limits.
 
 Reports jump: they are rare, late, and as good as the localization of the vehicles. A recording is judged by what robots
-can do, so the recorded robots follow the reports no faster than their models drive, behind by their braking distance.
+can do, so the recorded robots follow the reports no faster than their models drive. They go on to where a vehicle can
+stop at the soonest after its report.
 """
 
+import math
 from collections import deque
 
 import numpy as np
 
 from mrpbench_core.api import Float, RobotModel, wrapped
 
-NEAR_M, NEAR_RAD = 0.02, 0.1
-"""Metres and radians within which a report counts as reached."""
+NEAR_M, NEAR_RAD = 0.1, 0.3
+"""Metres and radians within which a robot goes on to the next report."""
 BRAKING = 0.8
 """Share of its acceleration with which a robot brakes, so that it does not overshoot in steps of a control period."""
 
@@ -37,18 +39,23 @@ class Tracker:
         self._rest = np.zeros(len(robots))
         """f8[n] metres from the target through the reports after it."""
         self._reports: list[deque[tuple[float, float, float]]] = [deque() for _ in robots]
-        self._last = [tuple(row) for row in pose.tolist()]
+        self._last: list[tuple[float, ...]] = [()] * len(robots)
         self._behind: set[int] = set()
         """Robots that have reports after their target."""
 
-    def report(self, robot: int, x: float, y: float, yaw: float) -> None:
-        """Add a report: metres and radians."""
-        before = self._last[robot]
-        if before != (x, y, yaw):
-            self._reports[robot].append((x, y, yaw))
-            self._rest[robot] += np.hypot(x - before[0], y - before[1])
-            self._last[robot] = (x, y, yaw)
-            self._behind.add(robot)
+    def report(self, robot: int, x: float, y: float, yaw: float, speed: float = 0.0) -> None:
+        """Add a report: metres, radians, and m/s forward."""
+        report = x, y, yaw, speed
+        if self._last[robot] == report:
+            return
+        self._last[robot] = report
+        braking = speed * abs(speed) / (2 * self._limits[1, robot])
+        stop = x + braking * math.cos(yaw), y + braking * math.sin(yaw), yaw
+        reports = self._reports[robot]
+        before = reports[-1] if reports else self._target[robot].tolist()
+        self._rest[robot] += math.hypot(stop[0] - before[0], stop[1] - before[1])
+        reports.append(stop)
+        self._behind.add(robot)
 
     def step(self) -> None:
         """Go on by one period."""
@@ -81,7 +88,7 @@ class Tracker:
     def _advance(self, robot: int) -> None:
         """Take the next report of a robot for its target once it has reached the one before."""
         reports, (x, y, yaw) = self._reports[robot], self.pose[robot].tolist()
-        reach = max(NEAR_M, abs(float(self.twist[robot, 0])) * self._period)
+        reach = max(NEAR_M, 1.5 * abs(float(self.twist[robot, 0])) * self._period)
         while reports:
             there = self._target[robot].tolist()
             if np.hypot(there[0] - x, there[1] - y) > reach or abs(wrapped(there[2] - yaw)) > NEAR_RAD:

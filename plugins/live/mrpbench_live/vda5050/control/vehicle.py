@@ -25,6 +25,8 @@ class Place:
     """metres."""
     yaw: float
     """radians."""
+    speed: float
+    """m/s forward; 0 if it does not say."""
     level: int
 
 
@@ -60,7 +62,7 @@ class ForeignVehicle:
             if kind == "state":
                 self.state = message
                 self._hear_errors(message["errors"])
-            self._locate(message.get(self._names.position))
+            self._locate(message.get(self._names.position), message.get("velocity", {}))
 
     def _connect(self, connection: str) -> None:
         if connection == self.connection:
@@ -84,14 +86,15 @@ class ForeignVehicle:
             self.say("vehicle_error", f"{kind}: {printable(description)}" if description else kind)
         self._errors = found
 
-    def _locate(self, position: Mapping[str, Any] | None) -> None:
+    def _locate(self, position: Mapping[str, Any] | None, velocity: Mapping[str, Any]) -> None:
         if position is None or not position.get(self._names.localized, True):
             return
         level = self._levels.get(position["mapId"])
         self.unknown_map = None if level is not None else str(position["mapId"])
         if level is not None:
             x, y, yaw = (float(position[key]) for key in ("x", "y", "theta"))
-            self.place = Place(x=x, y=y, yaw=yaw, level=level)
+            speed = float(velocity.get("vx", 0.0))
+            self.place = Place(x=x, y=y, yaw=yaw, speed=speed, level=level)
 
     @property
     def online(self) -> bool:
@@ -139,14 +142,6 @@ class ForeignVehicle:
             return str(fatal[0]["errorType"])
         mode = str(self.state["operatingMode"])
         return None if mode in IN_CHARGE else f"it is in the mode {mode}"
-
-    @property
-    def twist(self) -> tuple[float, float]:
-        """m/s forward and rad/s, as it reports them."""
-        velocity = (self.state or {}).get("velocity", {})
-        if not self.driving:
-            return 0.0, 0.0
-        return float(velocity.get("vx", 0.0)), float(velocity.get("omega", 0.0))
 
     def supports(self, parameter: str) -> bool:
         """Tell whether its factsheet lists an optional parameter of orders; one that is not listed it cannot use."""
