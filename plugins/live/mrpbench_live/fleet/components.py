@@ -20,6 +20,7 @@ from mrpbench_core.api import (
     Feature,
     Fleet,
     FleetView,
+    Float,
     InputError,
     Int,
     Int32,
@@ -126,7 +127,9 @@ class LiveSession(DispatcherSession):
         self._moves = PlannedMoves(problem, plan, np.zeros(len(problem), np.int64))
         self._released: Int = np.zeros(len(problem), np.int64)
         self._changed_at = -np.inf
-        self._before: tuple[float, np.ndarray] | None = None
+        self._before: tuple[float, Float] = np.inf, np.zeros((len(problem), 3))
+        """Time and poses of the last call."""
+        self._velocity: Float = np.zeros((len(problem), 3))
         self._connection = recipe.interface.connect(site, paths)
 
     def update(self, now: float, view: FleetView) -> Orders:
@@ -162,14 +165,13 @@ class LiveSession(DispatcherSession):
 
     def _state(self, now: float, view: FleetView) -> FleetState:
         """The fleet as protocols report it."""
-        pose = view.pose
-        velocity = np.zeros_like(pose)
-        if self._before is not None and now > self._before[0]:
-            change = (pose - self._before[1]) / (now - self._before[0])
+        pose, (before, then) = view.pose, self._before
+        if now > before:  # it is asked twice at one time after a new plan
+            change = (pose - then) / (now - before)
             cosine, sine = np.cos(pose[:, 2]), np.sin(pose[:, 2])
-            velocity[:, 0] = cosine * change[:, 0] + sine * change[:, 1]
-            velocity[:, 1] = cosine * change[:, 1] - sine * change[:, 0]
-            velocity[:, 2] = wrapped(pose[:, 2] - self._before[1][:, 2]) / (now - self._before[0])
+            forward, aside = cosine * change[:, 0] + sine * change[:, 1], cosine * change[:, 1] - sine * change[:, 0]
+            turning = wrapped(pose[:, 2] - then[:, 2]) / (now - before)
+            self._velocity = np.column_stack([forward, aside, turning])
         self._before = now, pose.copy()
         return FleetState(
             now=now,
@@ -177,5 +179,5 @@ class LiveSession(DispatcherSession):
             level=view.level,
             driving=(view.mode == Mode.FOLLOWING) | (view.mode == Mode.RECOVERING),
             gave_up=view.mode == Mode.ABORTED,
-            velocity=velocity,
+            velocity=self._velocity,
         )

@@ -107,4 +107,7 @@ def test_robots_follow_the_paths_that_come_from_outside(run):
     assert np.abs(channels["truth"][:, 1, :2] - (9.5, 4.5)).max() < 1e-6
     assert states[-1] is None  # the connection was closed
     assert any(state.driving[0] for state in states[:-1])
+    speeds = [state.velocity[0, 0] for state in states[:-1]]
+    assert max(speeds) > 0.15
+    assert np.abs(np.diff(speeds)).max() < 0.15  # also where a new plan takes effect
     assert not any(state.driving[1] for state in states[:-1])

@@ -14,7 +14,7 @@ from mrpbench_core.api import Float, RobotModel, wrapped
 
 NEAR_M, NEAR_RAD = 0.1, 0.3
 """Metres and radians within which a robot goes on to the next report."""
-BRAKING = 0.8
+BRAKING = 0.95
 """Share of its acceleration with which a robot brakes, so that it does not overshoot in steps of a control period."""
 
 
@@ -36,6 +36,8 @@ class Tracker:
         self.twist = np.zeros((len(robots), 2))
         """f8[n,2] m/s forward, rad/s."""
         self._target = pose.copy()
+        self._came, self._faced = np.ones(len(robots), bool), np.ones(len(robots), bool)
+        """bool[n] each: the robot has been at the place of its target, and has had its yaw."""
         self._rest = np.zeros(len(robots))
         """f8[n] metres from the target through the reports after it."""
         self._reports: list[deque[tuple[float, float, float]]] = [deque() for _ in robots]
@@ -59,6 +61,7 @@ class Tracker:
 
     def step(self) -> None:
         """Go on by one period."""
+        self._look()
         for robot in list(self._behind):
             self._advance(robot)
         period, pose = self._period, self.pose
@@ -85,19 +88,29 @@ class Tracker:
         self.pose = np.column_stack([pose[:, :2] + moved, wrapped(pose[:, 2] + omega * period)])
         self.twist = np.column_stack([ahead, omega])
 
+    def _look(self) -> None:
+        """Note who has come to the place and to the yaw of its target, be it only in passing."""
+        shift = self._target - self.pose
+        reach = np.maximum(NEAR_M, 1.5 * np.abs(self.twist[:, 0]) * self._period)
+        self._came |= np.hypot(shift[:, 0], shift[:, 1]) <= reach
+        self._faced |= np.abs(wrapped(shift[:, 2])) <= NEAR_RAD
+
     def _advance(self, robot: int) -> None:
         """Take the next report of a robot for its target once it has reached the one before."""
         reports, (x, y, yaw) = self._reports[robot], self.pose[robot].tolist()
         reach = max(NEAR_M, 1.5 * abs(float(self.twist[robot, 0])) * self._period)
-        while reports:
-            there = self._target[robot].tolist()
-            if np.hypot(there[0] - x, there[1] - y) > reach or abs(wrapped(there[2] - yaw)) > NEAR_RAD:
-                return
-            report = reports.popleft()
-            self._rest[robot] -= np.hypot(report[0] - there[0], report[1] - there[1])
-            self._target[robot] = report
-        self._rest[robot] = 0.0
-        self._behind.discard(robot)
+        came, faced = bool(self._came[robot]), bool(self._faced[robot])
+        while came and faced:
+            before, target = self._target[robot].tolist(), reports.popleft()
+            self._rest[robot] -= math.hypot(target[0] - before[0], target[1] - before[1])
+            self._target[robot] = target
+            came = math.hypot(target[0] - x, target[1] - y) <= reach
+            faced = abs(math.remainder(target[2] - yaw, 2 * math.pi)) <= NEAR_RAD
+            if not reports:
+                self._rest[robot] = 0.0
+                self._behind.discard(robot)
+                break
+        self._came[robot], self._faced[robot] = came, faced
 
 
 def _near(wanted: Float, before: Float, change: Float) -> Float:
