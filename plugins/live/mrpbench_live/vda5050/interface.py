@@ -1,7 +1,6 @@
 """The interface `vda5050`: every robot is a vehicle of its own for an outside fleet control."""
 
 import json
-import time
 from collections.abc import Sequence
 from typing import Any, Literal
 
@@ -25,7 +24,7 @@ from mrpbench_live.vda5050.vehicle import Vehicle
 from mrpbench_live.vda5050.wire import Broker, Client, Wire
 
 LEAST_INTERVAL = 0.1
-"""Seconds between two states of a vehicle at least."""
+"""Simulated seconds between two states of a vehicle at least."""
 CONNECTING_S = 30.0
 """Seconds within which all vehicles have to be connected."""
 LONGEST = 300
@@ -42,9 +41,9 @@ class Vda5050(Interface):
     version: Literal["2.1", "3.0"] = option("3.0", help="of VDA 5050")
     topics: str = option("", help="what topics begin with; empty: `uagv/v2` in 2.1, `vda5050/v3` in 3.0")
     manufacturer: str = option("mrpbench", help="second last part of topics but one; the serial number is robot_0, …")
-    state_interval: float = option(1.0, help="most time between two states of a vehicle", unit="s", validator=gt(0))
+    state_interval: float = option(1.0, help="most simulated time between two states", unit="s", validator=gt(0))
     visualization_interval: float = option(
-        0.0, help="time between two messages on `visualization`; 0: there are none", unit="s", validator=ge(0)
+        0.0, help="simulated time between two messages on `visualization`; 0: there are none", unit="s", validator=ge(0)
     )
     action_time: float = option(5.0, help="simulated time that actions like `pick` take", unit="s", validator=ge(0))
     battery: Battery = option(Battery(), help="model of the batteries")
@@ -79,7 +78,7 @@ class VdaFleet(Connection):
 
     def exchange(self, state: FleetState, due: float) -> Sequence[Event]:
         """Advance all vehicles, send what they have to say, and take in what waits or comes until `due`."""
-        self._now, now = state.now, time.monotonic()
+        self._now = now = state.now
         facts = np.stack([self._paths.passed, state.driving, state.gave_up])
         other = (facts != self._facts).any(axis=0)
         self._facts = facts
@@ -128,9 +127,8 @@ class _Member:
         self._vehicle = Vehicle(track, self._names, recipe.battery, recipe.action_time, note)
         self._vehicle.last_node = track.name(track.end)
         self._instant = InstantActions(self._vehicle, track, self._names, note)
-        now = time.monotonic()
-        self._state_at = now + recipe.state_interval * (robot % 97) / 97  # not all at once
-        self._visualization_at = now if recipe.visualization_interval else float("inf")
+        self._state_at = recipe.state_interval * (robot % 97) / 97  # not all at once
+        self._visualization_at = 0.0 if recipe.visualization_interval else float("inf")
         self._not_before = 0.0
         will = {**self._headers.next("connection"), "connectionState": self._names.connection_broken}
         self.client = Client(
@@ -144,7 +142,7 @@ class _Member:
 
     @property
     def due(self) -> float:
-        """The time of `time.monotonic` at which a message is due."""
+        """The simulated time at which a message is due."""
         return min(self._state_at, self._visualization_at)
 
     @property
@@ -162,7 +160,7 @@ class _Member:
         if (vehicle.changed and now >= self._not_before) or now >= self._state_at:
             self._send_state(now)
         if now >= self._visualization_at:
-            self._visualization_at = now + self._intervals[2]
+            self._visualization_at = now + self._intervals[2] - 1e-9
             self._send("visualization", self._visualization())
 
     def leave(self) -> None:
@@ -178,6 +176,7 @@ class _Member:
     def _send_state(self, now: float) -> None:
         if self._send("state", state_of(self._vehicle, self._maps, self._names)):
             self._vehicle.changed = False
+        now -= 1e-9  # control periods do not add up exactly
         self._state_at, self._not_before = now + self._intervals[1], now + LEAST_INTERVAL
 
     def _send_factsheet(self) -> None:
