@@ -38,8 +38,10 @@ def test_robots_keep_their_limits_and_arrive(reports):
     assert np.abs(turn).max() <= ROBOT.max_turn_rate * PERIOD + 1e-9
     heading = poses[:-1, 2] + turn / 2
     ahead = (shift[:, 0] * np.cos(heading) + shift[:, 1] * np.sin(heading)) / PERIOD
-    assert np.abs(np.diff(ahead, prepend=0.0)).max() <= ROBOT.acceleration * PERIOD + 1e-6
-    assert np.abs(np.diff(turn / PERIOD, prepend=0.0)).max() <= ROBOT.turn_acceleration * PERIOD + 1e-6
+    assert np.abs(np.diff(ahead)).max() <= ROBOT.acceleration * PERIOD + 1e-6
+    assert np.abs(np.diff(turn / PERIOD)).max() <= ROBOT.turn_acceleration * PERIOD + 1e-6
+    assert abs(ahead[0]) <= ROBOT.acceleration * PERIOD / 2 + 1e-6  # it begins at rest
+    assert abs(turn[0] / PERIOD) <= ROBOT.turn_acceleration * PERIOD / 2 + 1e-6
     x, y, yaw, *_ = reports[-1]
     assert np.hypot(*(poses[-1, :2] - (x, y))) < 0.05
     assert abs(wrapped(poses[-1, 2] - yaw)) < 0.05

@@ -144,9 +144,9 @@ class _Reported(Simulation):
             if place is not None and place.level == self._levels[robot]:
                 self._tracker.report(robot, place.x, place.y, place.yaw, place.speed)
         self._tracker.step()
-        pose = self._tracker.pose
+        pose, twist = self._tracker.pose, np.array([vehicle.twist for vehicle in self._vehicles.robots])
         contacts = self._overlaps.of(pose, self._levels)
-        self._state = State(pose=pose, twist=self._tracker.twist, level=self._levels, contacts=contacts)
+        self._state = State(pose=pose, twist=twist.reshape(-1, 2), level=self._levels, contacts=contacts)
         return self._state
 
     def scans(self) -> tuple[ScanBatch, ...]:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from mrpbench_core.api import Event, InputError
+from mrpbench_live.vda5050.control.sender import REACH
 from mrpbench_live.vda5050.control.vehicle import ForeignVehicle
 from mrpbench_live.vda5050.messages import Headers, read
 from mrpbench_live.vda5050.names import VERSIONS
@@ -14,8 +15,6 @@ from mrpbench_live.vda5050.schemas import validator
 from mrpbench_live.vda5050.wire import Broker, Client, Wire
 
 CONNECTING_S = 10.0
-REACH = 0.5
-"""Metres from the start of a robot within which its vehicle stands."""
 TOPICS = "connection", "factsheet", "state", "visualization"
 
 

@@ -13,6 +13,8 @@ from mrpbench_live.vda5050.control.itinerary import Itinerary, Stop
 from mrpbench_live.vda5050.control.vehicle import ForeignVehicle
 from mrpbench_live.vda5050.names import Names
 
+REACH = 0.5
+"""Metres from the first node of an order within which a vehicle can take it."""
 PATIENCE_S = 2.0
 """Wall seconds after which a message that is not confirmed is sent again."""
 THETA = "order.nodes.nodePosition.theta"
@@ -145,6 +147,8 @@ class OrderSender:
         position: dict[str, Any] = {"x": stop.x, "y": stop.y, "mapId": level}
         if math.isfinite(stop.yaw) and self.vehicle.supports(THETA):
             position["theta"] = math.remainder(stop.yaw, 2 * math.pi)
+        if sequence == 0:  # where the vehicle stands, which it need not do exactly
+            position["allowedDeviationXY"] = self._names.allowed_deviation(REACH)
         return {
             "nodeId": f"{level}:{stop.x:g},{stop.y:g}",
             "sequenceId": sequence,

@@ -28,7 +28,7 @@ class Tracker:
     """
 
     def __init__(self, robots: tuple[RobotModel, ...], pose: Float, period: float) -> None:
-        self._period = period
+        self._period, self._passed = period, period / 2
         limits = [(it.max_speed, it.acceleration, it.max_turn_rate, it.turn_acceleration) for it in robots]
         self._limits = np.array(limits).reshape(-1, 4).T
         self.pose = pose.copy()
@@ -70,7 +70,8 @@ class Tracker:
         rate = np.minimum.reduce(
             [top_rate, np.sqrt(2 * BRAKING * turn_acceleration * np.abs(turn)), np.abs(turn) / period]
         )
-        omega = _near(np.copysign(rate, turn), self.twist[:, 1], turn_acceleration * period)
+        passed, self._passed = self._passed, period  # at first, speeds change in the middle of the first step
+        omega = _near(np.copysign(rate, turn), self.twist[:, 1], turn_acceleration * passed)
         heading = pose[:, 2] + omega * period / 2
         shift = self._target[:, :2] - pose[:, :2]
         length = np.hypot(shift[:, 0], shift[:, 1])
@@ -79,7 +80,7 @@ class Tracker:
         speed = np.minimum.reduce([top, np.sqrt(2 * BRAKING * acceleration * left), left / period])
         velocity = shift * (speed / np.maximum(length, 1e-9))[:, None]
         cosine, sine = np.cos(heading), np.sin(heading)
-        ahead = _near(velocity[:, 0] * cosine + velocity[:, 1] * sine, self.twist[:, 0], acceleration * period)
+        ahead = _near(velocity[:, 0] * cosine + velocity[:, 1] * sine, self.twist[:, 0], acceleration * passed)
         aside = velocity[:, 1] * cosine - velocity[:, 0] * sine
         off = np.abs(shift[:, 1] * cosine - shift[:, 0] * sine) / period
         most = np.minimum(np.sqrt(np.maximum(top**2 - ahead**2, 0.0)), off)

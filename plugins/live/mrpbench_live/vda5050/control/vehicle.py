@@ -50,6 +50,7 @@ class ForeignVehicle:
         self.unknown_map: str | None = None
         """A map on which it is, and that the world does not have."""
         self._errors: set[tuple[str, str]] = set()
+        """Type and description of those that were said; each is once."""
         self._numbers: dict[str, int] = {}
 
     def take(self, kind: str, message: Mapping[str, Any]) -> None:
@@ -84,7 +85,7 @@ class ForeignVehicle:
         found = {(str(error["errorType"]), str(error.get("errorDescription", ""))) for error in errors}
         for kind, description in sorted(found - self._errors):
             self.say("vehicle_error", f"{kind}: {printable(description)}" if description else kind)
-        self._errors = found
+        self._errors |= found
 
     def _locate(self, position: Mapping[str, Any] | None, velocity: Mapping[str, Any]) -> None:
         if position is None or not position.get(self._names.localized, True):
@@ -142,6 +143,12 @@ class ForeignVehicle:
             return str(fatal[0]["errorType"])
         mode = str(self.state["operatingMode"])
         return None if mode in IN_CHARGE else f"it is in the mode {mode}"
+
+    @property
+    def twist(self) -> tuple[float, float]:
+        """m/s forward and rad/s, as its newest state says; nothing unless it drives."""
+        velocity = self.state.get("velocity", {}) if self.state is not None and self.driving else {}
+        return float(velocity.get("vx", 0.0)), float(velocity.get("omega", 0.0))
 
     def supports(self, parameter: str) -> bool:
         """Tell whether its factsheet lists an optional parameter of orders; one that is not listed it cannot use."""
