@@ -3,20 +3,21 @@
 import argparse
 import signal
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from mrpbench_core.cli.input.arguments import add_configuration, split_words
 from mrpbench_core.cli.output.progress import Printed
 from mrpbench_core.cli.output.summary import print_summary
-from mrpbench_core.engine.loading.runs import StudyRun
+from mrpbench_core.engine.loading.runs import StudyRun, StudyRuns
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.engine.study.options import StudyOptions
 from mrpbench_core.engine.study.reading import read_study
 from mrpbench_core.engine.study.study import run_study
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.model.runs.status import RunStatus
+from mrpbench_core.store.results import Results
 
 EXIT_CODES = (
     " Exit code: 0 the run has a definite status, 1 it crashed, 2 the configuration is wrong or the broker cannot be"
@@ -34,12 +35,15 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", metavar="DIR", help="results folder (default: results/NAME)")
 
 
-def run_one(arguments: argparse.Namespace, components: Sequence[str]) -> int:
-    """Do the only run of a configuration, and print its summary; return the exit code.
+def run_one(
+    arguments: argparse.Namespace, components: Sequence[str], more: Callable[[StudyRun], str] | None = None
+) -> tuple[int, Results | None]:
+    """Do the only run of a configuration, and print its summary; return the exit code and its results.
 
     Args:
         arguments: those of `add_arguments`.
         components: overrides that bring the outside party into the run; they come after those of the command line.
+        more: gives a further override for the run that these describe.
 
     Raises:
         InputError: the configuration is wrong, or describes several runs.
@@ -49,29 +53,41 @@ def run_one(arguments: argparse.Namespace, components: Sequence[str]) -> int:
         raise InputError(f"one configuration is run at a time, got {' and '.join(files)}")
     limit = [f"limits.execution={arguments.duration}"] if arguments.duration else []
     with slots_of_this_process() as slots:
+        if more is not None:
+            components = [*components, more(_only_run(read_study(files[0], [*overrides, *components]), files[0]))]
         study = read_study(files[0], [*overrides, *components, *limit])
-        if study.errors:
-            raise InputErrors(*study.errors)
-        if len(study.runs) != 1:
-            axes = ", ".join(study.runs[0].axes) if study.runs else "no axis"
-            raise InputError(
-                f"{files[0]} describes {len(study.runs)} runs (by {axes}), and one can meet an outside party",
-                hint="choose it by overrides, e.g. seed=0",
-            )
+        _only_run(study, files[0])
         signal.signal(signal.SIGTERM, signal.default_int_handler)
         options = StudyOptions(out=arguments.out, rerun="all", progress=_Told())
         try:
             done = run_study(study, options, slots)
         except KeyboardInterrupt:
             sys.stderr.write("interrupted: nothing was recorded\n")
-            return 130
+            return 130, None
     for mistake in done.mistakes.values():
         sys.stderr.write(f"{mistake}\n")
     if done.mistakes:
-        return 2
+        return 2, None
     print_summary(done.results)
     print(f"results in {options.folder_of(study.name)}")
-    return int(RunStatus.CRASHED in done.results.statuses())
+    return int(RunStatus.CRASHED in done.results.statuses()), done.results
+
+
+def _only_run(study: StudyRuns, file: str) -> StudyRun:
+    """Return the run of a study that describes one.
+
+    Raises:
+        InputError: it is wrong, or describes several.
+    """
+    if study.errors:
+        raise InputErrors(*study.errors)
+    if len(study.runs) != 1:
+        axes = ", ".join(study.runs[0].axes) if study.runs else "no axis"
+        raise InputError(
+            f"{file} describes {len(study.runs)} runs (by {axes}), and one can meet an outside party",
+            hint="choose it by overrides, e.g. seed=0",
+        )
+    return study.runs[0]
 
 
 class _Told(Printed):

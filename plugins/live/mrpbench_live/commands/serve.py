@@ -16,6 +16,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Do the run, and print its summary."""
+    code, _ = run_one(arguments, [*vehicles(arguments), "tasks=live"])
+    return code
+
+
+def vehicles(arguments: argparse.Namespace) -> list[str]:
+    """Return the overrides by which the robots of a run are vehicles of VDA 5050."""
     interface = {"plugin": "vda5050", "url": arguments.vda5050, "version": arguments.version}
     dispatcher = json.dumps({"plugin": "live", "pace": arguments.pace, "interface": interface})
-    return run_one(arguments, [f"dispatcher={dispatcher}", "planner=live", "tasks=live"])
+    return [f"dispatcher={dispatcher}", "planner=live"]

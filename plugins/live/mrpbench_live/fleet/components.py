@@ -4,12 +4,11 @@ A run has a process of its own, so its three components share one `_Run`.
 """
 
 import sys
-from collections.abc import Sequence
 from typing import ClassVar
 
 import attrs
 import numpy as np
-from attrs.validators import gt
+from attrs.validators import ge, gt
 
 from mrpbench_core.api import (
     Budget,
@@ -33,7 +32,6 @@ from mrpbench_core.api import (
     Problem,
     Promise,
     Roadmap,
-    Task,
     TaskSource,
     TaskStream,
     World,
@@ -45,31 +43,44 @@ from mrpbench_live.fleet.pace import Pace
 from mrpbench_live.fleet.paths import FleetPaths, FleetState
 from mrpbench_live.fleet.plans import PlannedMoves, continued
 from mrpbench_live.fleet.site import Site
+from mrpbench_live.fleet.steps import LoadSteps
+from mrpbench_live.fleet.transports import LoadStream, Transports
 
 
 class _Run:
     """What the components of one run share."""
 
     site: Site | None = None
+    transports: Transports | None = None
     paths: FleetPaths | None = None
 
 
 @attrs.frozen(kw_only=True)
 class LiveTasks(TaskSource):
-    """The work of the fleet is known to an outside party alone; the run lasts until `limits.execution`."""
+    """The work of the fleet is known to an outside party alone; the run lasts until `limits.execution`.
+
+    With `offered`, it gets transports to serve, at a rate that rises step by step until it does not keep up.
+    """
 
     live: ClassVar[bool] = True
 
+    offered: TaskSource | None = option(None, help="tasks that the outside party has to serve; none: its own")
+    growth: float = option(1.5, help="factor of the rate of `offered` from step to step", validator=gt(1))
+    window: float = option(180.0, help="simulated time of each step", unit="s", validator=gt(0))
+    pid: int = option(0, help="process of the outside party, to measure it; 0: it is not measured", validator=ge(0))
+
     def start(self, world: World, roadmap: Roadmap, fleet: Fleet, seed: int) -> TaskStream:
-        """Begin a stream without tasks."""
-        del seed
-        _Run.site, _Run.paths = Site(world, roadmap, fleet), None
-        return _NoTasks()
+        """Begin a stream without tasks.
 
-
-class _NoTasks(TaskStream):
-    def released(self, now: float, finished: int) -> Sequence[Task]:  # noqa: ARG002 - there are none
-        return ()
+        Raises:
+            InputError: `offered` cannot be in this world, or there is no process `pid`.
+        """
+        _Run.site, _Run.paths, _Run.transports = Site(world, roadmap, fleet), None, None
+        if self.offered is None:
+            return LoadStream()
+        steps = LoadSteps(self.growth, self.window, self.pid)
+        _Run.transports = Transports(self.offered.start(world, roadmap, fleet, seed), roadmap, steps)
+        return LoadStream(steps)
 
 
 @attrs.frozen(kw_only=True)
@@ -136,7 +147,12 @@ class LiveSession(DispatcherSession):
         """Report the fleet, wait until `now` is due, and release."""
         paths = self._paths
         paths.passed = self._moves.made(view.reached)
-        events = [*self._connection.exchange(self._state(now, view), self._pace.due(now))]
+        state = self._state(now, view)
+        events = [*self._connection.exchange(state, self._pace.due(now))]
+        if (transports := _Run.transports) is not None:
+            new, what = transports.update(state, paths)
+            self._connection.offer(new)
+            events += what
         if change := self._pace.change(now):
             events.append(Event(stamp=now, kind="pace", detail=change))
             sys.stderr.write(f"at {now:.1f} s: {change}\n")

@@ -13,6 +13,7 @@ from mrpbench_core.files.printing import printable
 from mrpbench_live.fleet.interface import Connection, Interface
 from mrpbench_live.fleet.paths import FleetPaths, FleetState
 from mrpbench_live.fleet.site import Site
+from mrpbench_live.fleet.transports import Transport
 from mrpbench_live.vda5050.battery import Battery
 from mrpbench_live.vda5050.condition import Here
 from mrpbench_live.vda5050.instant import InstantActions
@@ -20,6 +21,7 @@ from mrpbench_live.vda5050.messages import Headers, factsheet_of, position_of, r
 from mrpbench_live.vda5050.names import VERSIONS, Names
 from mrpbench_live.vda5050.schemas import validator
 from mrpbench_live.vda5050.track import Track
+from mrpbench_live.vda5050.transports import TRANSPORTS, transport_message
 from mrpbench_live.vda5050.vehicle import Vehicle
 from mrpbench_live.vda5050.wire import Broker, Client, Wire
 
@@ -62,7 +64,7 @@ class VdaFleet(Connection):
 
     def __init__(self, recipe: Vda5050, site: Site, paths: FleetPaths) -> None:
         self._wire = Wire(Broker.of(recipe.url))
-        self._paths, self._now = paths, 0.0
+        self._paths, self._maps, self._now = paths, site.levels, 0.0
         self._events: list[Event] = []
         self._members = [_Member(self, self._wire, recipe, site, paths, robot) for robot in range(len(site.fleet))]
         self._facts = np.full((3, len(site.fleet)), -1)
@@ -98,6 +100,12 @@ class VdaFleet(Connection):
         self._wire.serve(due)
         events, self._events = self._events, []
         return events
+
+    def offer(self, transports: Sequence[Transport]) -> None:
+        """Publish transports, which VDA 5050 leaves to fleet controls: each as `transport_message` has it."""
+        for transport in transports:
+            message = transport_message(transport, self._maps)
+            self._members[0].client.publish(TRANSPORTS, json.dumps(message).encode(), qos=1)
 
     def close(self) -> None:
         """Say that all vehicles are offline."""
