@@ -24,6 +24,7 @@ from mrpbench_live.vda5050.track import Track
 from mrpbench_live.vda5050.transports import TRANSPORTS, transport_message
 from mrpbench_live.vda5050.vehicle import Vehicle
 from mrpbench_live.vda5050.wire import Broker, Client, Wire
+from mrpbench_live.vda5050.wire_faults import FaultyWire, WireFaults
 
 LEAST_INTERVAL = 0.1
 """Simulated seconds between two states of a vehicle at least."""
@@ -49,6 +50,7 @@ class Vda5050(Interface):
     )
     action_time: float = option(5.0, help="simulated time that actions like `pick` take", unit="s", validator=ge(0))
     battery: Battery = option(Battery(), help="model of the batteries")
+    faults: WireFaults = option(WireFaults(), help="of the wire")
 
     def connect(self, site: Site, paths: FleetPaths) -> "VdaFleet":
         """Connect all vehicles.
@@ -65,7 +67,9 @@ class VdaFleet(Connection):
     def __init__(self, recipe: Vda5050, site: Site, paths: FleetPaths) -> None:
         self._wire = Wire(Broker.of(recipe.url))
         self._paths, self._maps, self._now = paths, site.levels, 0.0
+        self._cut_for = recipe.faults.cut_for
         self._events: list[Event] = []
+        self.faulty = FaultyWire(recipe.faults, self._wire)
         self._members = [_Member(self, self._wire, recipe, site, paths, robot) for robot in range(len(site.fleet))]
         self._facts = np.full((3, len(site.fleet)), -1)
         """i8[3,n] what the vehicles knew last: moves that they have made, whether they drive, whether they gave up."""
@@ -81,6 +85,8 @@ class VdaFleet(Connection):
     def exchange(self, state: FleetState, due: float) -> Sequence[Event]:
         """Advance all vehicles, send what they have to say, and take in what waits or comes until `due`."""
         self._now = now = state.now
+        if self.faulty.advance(now):
+            self.note(-1, "connections_cut", f"for {self._cut_for:g} s")
         facts = np.stack([self._paths.passed, state.driving, state.gave_up])
         other = (facts != self._facts).any(axis=0)
         self._facts = facts
@@ -145,8 +151,9 @@ class _Member:
             (f"{self._topic}connection", json.dumps(will).encode()),
             (f"{self._topic}order", f"{self._topic}instantActions"),
             self._online,
-            self._take,
+            lambda topic, payload: fleet.faulty.carry(lambda: self._take(topic, payload)),
         )
+        self._carry = fleet.faulty.carry
 
     @property
     def due(self) -> float:
@@ -202,8 +209,11 @@ class _Member:
     def _send(self, topic: str, body: dict[str, Any], qos: int = 0, retain: bool = False) -> bool:
         if not self.client.connected:
             return False
-        message = {**self._headers.next(topic), **body}
-        return self.client.publish(self._topic + topic, json.dumps(message).encode(), qos, retain)
+        payload = json.dumps({**self._headers.next(topic), **body}).encode()
+        if retain:
+            return self.client.publish(self._topic + topic, payload, qos, retain)
+        self._carry(lambda: self.client.publish(self._topic + topic, payload, qos))
+        return True
 
     def _take(self, topic: str, payload: bytes) -> None:
         """Take in a message of the fleet control, whatever it is."""

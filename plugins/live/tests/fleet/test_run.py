@@ -71,6 +71,9 @@ class _Script(Connection):
             return [Event(stamp=state.now, kind="changed", robot=0, detail=f"{x} {y}")]
         return []
 
+    def offer(self, transports):
+        raise AssertionError("there are no transports")
+
     def close(self):
         self._states.append(None)
 
