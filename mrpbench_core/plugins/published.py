@@ -59,13 +59,13 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.task_sources": ("lorr",),
     },
     "mrpbench-live": {
-        "mrpbench.commands": ("check-vda5050", "control", "serve"),
+        "mrpbench.commands": ("check-vda5050", "control", "load", "serve"),
         "mrpbench.dispatchers": ("live",),
         "mrpbench.interfaces": ("vda5050",),
         "mrpbench.navigators": ("vda5050",),
         "mrpbench.planners": ("live",),
         "mrpbench.simulators": ("vda5050",),
-        "mrpbench.task_sources": ("live",),
+        "mrpbench.task_sources": ("live", "vda5050"),
     },
     "mrpbench-policies": {
         "mrpbench.metrics": ("pogema",),

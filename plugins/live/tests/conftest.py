@@ -301,4 +301,4 @@ def serve(tmp_path, broker):
     yield start, result, mrpbench
     for process in running:
         process.kill()
-        process.wait()
+        process.communicate()

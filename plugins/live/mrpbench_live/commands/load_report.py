@@ -39,8 +39,7 @@ class LoadReport:
         time, kind, robot, detail = (
             recording.channels[f"event_{name}"]().tolist() for name in ("time", "kind", "robot", "detail")
         )
-        del time
-        contacts = recording.channels["contact_time"]() if "contact_time" in recording.channels else np.zeros(0)
+        contacts = np.array([at for at, what in zip(time, kind, strict=True) if what == "contact"])
         steps = [json.loads(text) for what, text in zip(kind, detail, strict=True) if what == "load_step"]
         for step in steps:
             step["contacts"] = int(((contacts >= step["begin"]) & (contacts < step["end"])).sum())

@@ -24,14 +24,13 @@ STEP = {
 
 
 class Recorded:
-    def __init__(self, robots, events, contacts=()):
+    def __init__(self, robots, events):
         columns = zip(*events, strict=True)
         self.channels = {
             f"event_{name}": lambda column=column: np.array(column)
             for name, column in zip(("time", "kind", "robot", "detail"), columns, strict=True)
         }
         self.channels["truth"] = lambda: np.zeros((1, robots, 3))
-        self.channels["contact_time"] = lambda: np.array(contacts)
 
 
 def steps(*kept):
@@ -43,7 +42,8 @@ def steps(*kept):
 
 
 def test_the_knee_is_the_last_rate_that_is_kept_up():
-    report = LoadReport.of(Recorded(0, steps(True, True, False), contacts=[1.0, 179.0, 200.0]))
+    contacts = [(at, "contact", 0, "robot_1") for at in (1.0, 179.0, 200.0)]
+    report = LoadReport.of(Recorded(0, steps(True, True, False) + contacts))
     assert report.answer() == "it keeps up with 400 transports per hour, and falls behind at 800"
     assert [row[5] for row in report.rows()] == [2, 1, 0]
     assert report.rows()[0][6:] == [1.0, 2.0, 3.0, None, None, 25, "yes"]

@@ -70,7 +70,7 @@ def test_a_killed_broker_costs_time_only(swap, broker):
         broker.start()
         time.sleep(1.0)
     record, served, said = end()
-    assert (record["status"], served["status"]) == ("succeeded", "succeeded"), said
+    assert (record["status"], served["status"]) == ("succeeded", "succeeded"), (record["error"], said)
     assert served["metrics"]["execution.robot_contacts"] == 0
 
 
