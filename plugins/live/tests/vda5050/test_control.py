@@ -10,6 +10,7 @@ pytest.importorskip("paho.mqtt", reason="mrpbench-live[vda5050] is not installed
 from mrpbench_live.vda5050.check.rules import BROKEN, PASSED
 from mrpbench_live.vda5050.control.fleet import ForeignFleet
 from mrpbench_live.vda5050.messages import factsheet_of
+from mrpbench_live.vda5050.wire import Broker, Client, Wire
 
 from mrpbench_core.api import InputError
 
@@ -62,13 +63,19 @@ def test_without_releases_in_order_they_meet(swap):
 
 @pytest.mark.skipif(not KILLS, reason="`make live` sets MRPBENCH_LIVE_KILLS")
 def test_a_killed_broker_costs_time_only(swap, broker):
-    end = swap("adg", 60 + 15 * KILLS)
-    time.sleep(4.5)
+    end = swap("adg", 60 + 2 * KILLS, pace=1)
+    heard = []
+    wire = Wire(Broker.of(broker.url))
+    topics = ("vda5050/v3/mrpbench/+/order",)
+    wire.add(Client(wire, "listener", None, topics, lambda: None, lambda topic, _: heard.append(topic)))
+    while not heard:
+        wire.serve(time.monotonic() + 0.1)
+    wire.close()
     for _ in range(KILLS):
         broker.stop()
-        time.sleep(0.5)
+        time.sleep(0.3)
         broker.start()
-        time.sleep(1.0)
+        time.sleep(0.9)
     record, served, said = end()
     assert (record["status"], served["status"]) == ("succeeded", "succeeded"), (record["error"], said)
     assert served["metrics"]["execution.robot_contacts"] == 0
