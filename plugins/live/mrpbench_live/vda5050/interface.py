@@ -1,6 +1,7 @@
 """The interface `vda5050`: every robot is a vehicle of its own for an outside fleet control."""
 
 import json
+import math
 from collections.abc import Sequence
 from typing import Any, Literal
 
@@ -141,7 +142,8 @@ class _Member:
         self._vehicle = Vehicle(track, self._names, recipe.battery, recipe.action_time, note)
         self._vehicle.last_node = track.name(track.end)
         self._instant = InstantActions(self._vehicle, track, self._names, note)
-        self._state_at = recipe.state_interval * (robot % 97) / 97  # not all at once
+        self._phase = recipe.state_interval * (robot % 97) / 97  # not all at once, also after what all meet at one time
+        self._state_at = self._phase
         self._visualization_at = 0.0 if recipe.visualization_interval else float("inf")
         self._not_before = 0.0
         will = {**self._headers.next("connection"), "connectionState": self._names.connection_broken}
@@ -191,8 +193,9 @@ class _Member:
     def _send_state(self, now: float) -> None:
         if self._send("state", state_of(self._vehicle, self._maps, self._names)):
             self._vehicle.changed = False
-        now -= 1e-9  # control periods do not add up exactly
-        self._state_at, self._not_before = now + self._intervals[1], now + LEAST_INTERVAL
+        interval = self._intervals[1]
+        self._state_at = self._phase + interval * (math.floor((now - self._phase) / interval + 1e-6) + 1) - 1e-9
+        self._not_before = now + LEAST_INTERVAL - 1e-9  # control periods do not add up exactly
 
     def _send_factsheet(self) -> None:
         self._send("factsheet", factsheet_of(self._robot, self._names, self._intervals, self._headings), retain=True)

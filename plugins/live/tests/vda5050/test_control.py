@@ -63,7 +63,7 @@ def test_without_releases_in_order_they_meet(swap):
 
 @pytest.mark.skipif(not KILLS, reason="`make live` sets MRPBENCH_LIVE_KILLS")
 def test_a_killed_broker_costs_time_only(swap, broker):
-    end = swap("adg", 60 + 2 * KILLS, pace=1)
+    end = swap("adg", 35 + 2 * KILLS, pace=1)
     heard = []
     wire = Wire(Broker.of(broker.url))
     topics = ("vda5050/v3/mrpbench/+/order",)
