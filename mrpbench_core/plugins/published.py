@@ -1,7 +1,4 @@
-"""The distributions of this project by the names that they offer, for errors about plugins that are not installed.
-
-A test compares this table with the entry points of the distributions.
-"""
+"""The names that the distributions of this project offer, for errors; a test compares them with the entry points."""
 
 from mrpbench_core.files.extras import pip
 from mrpbench_core.plugins.kinds import COMMANDS
@@ -74,11 +71,13 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.task_sources": ("lorr",),
     },
     "mrpbench-live": {
-        "mrpbench.commands": ("check-vda5050", "serve"),
+        "mrpbench.commands": ("check-vda5050", "control", "load", "serve"),
         "mrpbench.dispatchers": ("live",),
         "mrpbench.interfaces": ("vda5050",),
+        "mrpbench.navigators": ("vda5050",),
         "mrpbench.planners": ("live",),
-        "mrpbench.task_sources": ("live",),
+        "mrpbench.simulators": ("vda5050",),
+        "mrpbench.task_sources": ("live", "vda5050"),
     },
     "mrpbench-policies": {
         "mrpbench.metrics": ("pogema",),

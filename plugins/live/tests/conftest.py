@@ -43,6 +43,34 @@ STUDY = {
     "metrics": ["execution"],
 }
 
+CORRIDOR = "type octile\nheight 2\nwidth 7\nmap\n@@@.@@@\n.......\n"
+BOX = """
+name: box
+footprint: [[0.2, 0.15], [-0.2, 0.15], [-0.2, -0.15], [0.2, -0.15]]
+max_speed: 1.0
+max_turn_rate: 2.0
+acceleration: 1.0
+turn_acceleration: 4.0
+"""
+STARTS = """
+mrpbench_scenario: 1
+robots: [{x: 0.5, y: 0.5, yaw: 0}, {x: 6.5, y: 0.5, yaw: 3.1416}]
+tasks: [{goals: [{x: 6.5, y: 0.5}]}, {goals: [{x: 0.5, y: 0.5}]}]
+"""
+SWAP = {
+    "name": "live",
+    "world": {"plugin": "movingai", "file": "corridor.map"},
+    "roadmap": "grid",
+    "scenario": {"plugin": "file", "file": "starts.yaml"},
+    "fleet": "box.yaml",
+    "assigner": "identity",
+    "simulator": "planar",
+    "planner": "cbs",
+    "control_rate": "10 Hz",
+    "metrics": ["execution"],
+    "limits": {"execution": "60 s"},
+}
+
 
 def free_port():
     with socket.socket() as found:
@@ -221,21 +249,40 @@ def bench3():
 
 
 @pytest.fixture
+def swap_study(tmp_path):
+    """Write `study.yaml`, in which two robots swap places in a corridor with a bay."""
+
+    def write():
+        for name, text in (("corridor.map", CORRIDOR), ("box.yaml", BOX), ("starts.yaml", STARTS)):
+            (tmp_path / name).write_text(text)
+        (tmp_path / "study.yaml").write_text(json.dumps(SWAP))
+        return tmp_path
+
+    return write
+
+
+@pytest.fixture
+def command():
+    """The beginning of a command line."""
+    return sys.executable, "-c", CODE
+
+
+@pytest.fixture
 def serve(tmp_path, broker):
     """Serve the study in a process of its own; returns its record and recording when it has ended."""
     (tmp_path / "free.map").write_text(MAP)
     (tmp_path / "study.yaml").write_text(json.dumps(STUDY))
     running = []
 
-    def start(seconds, version, pace):
+    def start(seconds, version, pace, *options):
         words = ["serve", "study.yaml", "--vda5050", broker.url, "--version", version, "--pace", str(pace)]
-        command = [sys.executable, "-c", CODE, *words, "--duration", f"{seconds} s"]
+        command = [sys.executable, "-c", CODE, *words, "--duration", f"{seconds} s", *options]
         running.append(subprocess.Popen(command, cwd=tmp_path))
         return running[-1]
 
-    def result():
+    def result(folder="results/live"):
         assert running[0].wait(60) == 0
-        folder = Results(ResultsFolder(tmp_path / "results" / "live"))
+        folder = Results(ResultsFolder(tmp_path / folder))
         (record,) = folder
         found = Recording(folder.folder.run(record["run_id"]).recording)
         columns = (found.channels[f"event_{key}"]().tolist() for key in ("kind", "robot", "detail"))
@@ -245,10 +292,13 @@ def serve(tmp_path, broker):
 
     def mrpbench(*words):
         """Run another command beside it; its output can be read."""
-        running.append(subprocess.Popen([sys.executable, "-c", CODE, *words], stdout=subprocess.PIPE, text=True))
+        command = [sys.executable, "-c", CODE, *words]
+        running.append(
+            subprocess.Popen(command, cwd=tmp_path, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        )
         return running[-1]
 
     yield start, result, mrpbench
     for process in running:
         process.kill()
-        process.wait()
+        process.communicate()

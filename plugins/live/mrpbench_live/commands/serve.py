@@ -2,105 +2,26 @@
 
 import argparse
 import json
-import signal
-import sys
-from pathlib import Path
-from typing import Any
 
-from mrpbench_core.cli.input.arguments import add_configuration, split_words
-from mrpbench_core.cli.output.progress import Printed
-from mrpbench_core.cli.output.summary import print_summary
-from mrpbench_core.engine.loading.runs import StudyRun
-from mrpbench_core.engine.processes.slots import slots_of_this_process
-from mrpbench_core.engine.study.options import StudyOptions
-from mrpbench_core.engine.study.reading import read_study
-from mrpbench_core.engine.study.study import run_study
-from mrpbench_core.files.errors import InputError, InputErrors
-from mrpbench_core.model.runs.status import RunStatus
+from mrpbench_live.commands.outside import EXIT_CODES, add_arguments, run_one
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
-        "The study must describe one run; its planner, dispatcher and tasks are replaced by `live`. Exit code: 0 the"
-        " run has a definite status, 1 it crashed, 2 the configuration is wrong or the broker cannot be reached, 130"
-        " interrupted."
+        "The study must describe one run; its planner, dispatcher and tasks are replaced by `live`." + EXIT_CODES
     )
-    add_configuration(parser)
-    parser.add_argument("--pace", type=float, default=1.0, metavar="X", help="times real time (default: 1)")
-    parser.add_argument(
-        "--vda5050", metavar="URL", help="serve vehicles of VDA 5050 on this broker, e.g. mqtt://127.0.0.1:1883"
-    )
-    parser.add_argument("--version", choices=("2.1", "3.0"), default="3.0", help="of VDA 5050 (default: 3.0)")
-    parser.add_argument("--duration", metavar="TIME", help="simulated time of the run, e.g. '10 min'")
-    parser.add_argument("--out", metavar="DIR", help="results folder (default: results/NAME)")
+    add_arguments(parser)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Do the run, and print its summary."""
-    files, overrides = split_words(arguments.words)
-    if len(files) > 1:
-        raise InputError(f"one configuration is served at a time, got {' and '.join(files)}")
-    with slots_of_this_process() as slots:
-        study = read_study(files[0], [*overrides, *_overrides(arguments)])
-        if study.errors:
-            raise InputErrors(*study.errors)
-        if len(study.runs) != 1:
-            axes = ", ".join(study.runs[0].axes) if study.runs else "no axis"
-            raise InputError(
-                f"{files[0]} describes {len(study.runs)} runs (by {axes}), and one can be served",
-                hint="choose it by overrides, e.g. seed=0",
-            )
-        signal.signal(signal.SIGTERM, signal.default_int_handler)
-        options = StudyOptions(out=arguments.out, rerun="all", progress=_Told())
-        try:
-            done = run_study(study, options, slots)
-        except KeyboardInterrupt:
-            sys.stderr.write("interrupted: nothing was recorded\n")
-            return 130
-    for mistake in done.mistakes.values():
-        sys.stderr.write(f"{mistake}\n")
-    if done.mistakes:
-        return 2
-    print_summary(done.results)
-    print(f"results in {options.folder_of(study.name)}")
-    return int(RunStatus.CRASHED in done.results.statuses())
+    code, _ = run_one(arguments, [*vehicles(arguments), "tasks=live"])
+    return code
 
 
-def _overrides(arguments: argparse.Namespace) -> list[str]:
-    """The components that bring the outside party into the run."""
-    dispatcher: dict[str, Any] = {"plugin": "live", "pace": arguments.pace}
-    if arguments.vda5050 is None:
-        raise InputError("no outside party is named", hint="--vda5050 mqtt://127.0.0.1:1883")
-    dispatcher["interface"] = {"plugin": "vda5050", "url": arguments.vda5050, "version": arguments.version}
-    found = [f"dispatcher={json.dumps(dispatcher)}", "planner=live", "tasks=live"]
-    return found + ([f"limits.execution={arguments.duration}"] if arguments.duration else [])
-
-
-class _Told(Printed):
-    """Prints, besides progress, what the run says while it goes on, such as that it is behind the clock."""
-
-    def __init__(self) -> None:
-        super().__init__(live=False)
-        self.interval_s = 0.5
-        self._log: Path | None = None
-        self._read = 0
-
-    def started(self, point: StudyRun) -> None:
-        """Follow the log of the run."""
-        super().started(point)
-        assert self._folder is not None
-        self._log, self._read = self._folder.log(point.run_id), 0
-
-    def going(self, progress: list[dict[str, Any]]) -> None:  # noqa: ARG002
-        """Print what is new in the log."""
-        if self._log is not None and self._log.exists():
-            text = self._log.read_bytes()[self._read :]
-            self._read += len(text)
-            sys.stderr.write(text.decode(errors="replace"))
-            sys.stderr.flush()
-
-    def finished(self, point: StudyRun, record: dict[str, Any]) -> None:
-        """Print the rest of the log, and how the run ended."""
-        self.going([])
-        super().finished(point, record)
+def vehicles(arguments: argparse.Namespace) -> list[str]:
+    """Return the overrides by which the robots of a run are vehicles of VDA 5050."""
+    interface = {"plugin": "vda5050", "url": arguments.vda5050, "version": arguments.version}
+    dispatcher = json.dumps({"plugin": "live", "pace": arguments.pace, "interface": interface})
+    return [f"dispatcher={dispatcher}", "planner=live"]

@@ -4,12 +4,11 @@ A run has a process of its own, so its three components share one `_Run`.
 """
 
 import sys
-from collections.abc import Sequence
 from typing import ClassVar
 
 import attrs
 import numpy as np
-from attrs.validators import gt
+from attrs.validators import ge, gt
 
 from mrpbench_core.api import (
     Budget,
@@ -20,6 +19,7 @@ from mrpbench_core.api import (
     Feature,
     Fleet,
     FleetView,
+    Float,
     InputError,
     Int,
     Int32,
@@ -32,7 +32,6 @@ from mrpbench_core.api import (
     Problem,
     Promise,
     Roadmap,
-    Task,
     TaskSource,
     TaskStream,
     World,
@@ -44,31 +43,44 @@ from mrpbench_live.fleet.pace import Pace
 from mrpbench_live.fleet.paths import FleetPaths, FleetState
 from mrpbench_live.fleet.plans import PlannedMoves, continued
 from mrpbench_live.fleet.site import Site
+from mrpbench_live.fleet.steps import LoadSteps
+from mrpbench_live.fleet.transports import LoadStream, Transports
 
 
 class _Run:
     """What the components of one run share."""
 
     site: Site | None = None
+    transports: Transports | None = None
     paths: FleetPaths | None = None
 
 
 @attrs.frozen(kw_only=True)
 class LiveTasks(TaskSource):
-    """The work of the fleet is known to an outside party alone; the run lasts until `limits.execution`."""
+    """The work of the fleet is known to an outside party alone; the run lasts until `limits.execution`.
+
+    With `offered`, it gets transports to serve, at a rate that rises step by step until it does not keep up.
+    """
 
     live: ClassVar[bool] = True
 
+    offered: TaskSource | None = option(None, help="tasks that the outside party has to serve; none: its own")
+    growth: float = option(1.5, help="factor of the rate of `offered` from step to step", validator=gt(1))
+    window: float = option(180.0, help="simulated time of each step", unit="s", validator=gt(0))
+    pid: int = option(0, help="process of the outside party, to measure it; 0: it is not measured", validator=ge(0))
+
     def start(self, world: World, roadmap: Roadmap, fleet: Fleet, seed: int) -> TaskStream:
-        """Begin a stream without tasks."""
-        del seed
-        _Run.site, _Run.paths = Site(world, roadmap, fleet), None
-        return _NoTasks()
+        """Begin a stream without tasks.
 
-
-class _NoTasks(TaskStream):
-    def released(self, now: float, finished: int) -> Sequence[Task]:  # noqa: ARG002 - there are none
-        return ()
+        Raises:
+            InputError: `offered` cannot be in this world, or there is no process `pid`.
+        """
+        _Run.site, _Run.paths, _Run.transports = Site(world, roadmap, fleet), None, None
+        if self.offered is None:
+            return LoadStream()
+        steps = LoadSteps(self.growth, self.window, self.pid)
+        _Run.transports = Transports(self.offered.start(world, roadmap, fleet, seed), roadmap, steps)
+        return LoadStream(steps)
 
 
 @attrs.frozen(kw_only=True)
@@ -126,18 +138,26 @@ class LiveSession(DispatcherSession):
         self._moves = PlannedMoves(problem, plan, np.zeros(len(problem), np.int64))
         self._released: Int = np.zeros(len(problem), np.int64)
         self._changed_at = -np.inf
-        self._before: tuple[float, np.ndarray] | None = None
+        self._before: tuple[float, Float] = np.inf, np.zeros((len(problem), 3))
+        """Time and poses of the last call."""
+        self._velocity: Float = np.zeros((len(problem), 3))
         self._connection = recipe.interface.connect(site, paths)
 
     def update(self, now: float, view: FleetView) -> Orders:
         """Report the fleet, wait until `now` is due, and release."""
         paths = self._paths
         paths.passed = self._moves.made(view.reached)
-        events = [*self._connection.exchange(self._state(now, view), self._pace.due(now))]
+        state = self._state(now, view)
+        events = [*self._connection.exchange(state, self._pace.due(now))]
+        if (transports := _Run.transports) is not None:
+            new, what = transports.update(state, paths)
+            self._connection.offer(new)
+            events += what
         if change := self._pace.change(now):
             events.append(Event(stamp=now, kind="pace", detail=change))
             sys.stderr.write(f"at {now:.1f} s: {change}\n")
-        released, paths.released = self._moves.release(paths.passed, paths.allowed, self._ahead, self._released)
+        allowed = np.minimum(paths.allowed, paths.planned)
+        released, paths.released = self._moves.release(paths.passed, allowed, self._ahead, self._released)
         self._released = released
         replan = ""
         if paths.changed and now >= self._changed_at + self._interval - 1e-9:
@@ -153,8 +173,7 @@ class LiveSession(DispatcherSession):
         self._released = np.maximum(self._released - gone, problem.committed)
         if (self._moves.base + self._moves.count != self._paths.length).any():
             raise DispatchError("the plan does not have the paths of the outside party: use `planner: live`")
-        self._paths.changed.clear()
-        self._paths.forget(self._moves.base)
+        self._paths.adopt(self._moves.base)
 
     def close(self) -> None:
         """Leave the outside party."""
@@ -162,14 +181,13 @@ class LiveSession(DispatcherSession):
 
     def _state(self, now: float, view: FleetView) -> FleetState:
         """The fleet as protocols report it."""
-        pose = view.pose
-        velocity = np.zeros_like(pose)
-        if self._before is not None and now > self._before[0]:
-            change = (pose - self._before[1]) / (now - self._before[0])
+        pose, (before, then) = view.pose, self._before
+        if now > before:  # it is asked twice at one time after a new plan
+            change = (pose - then) / (now - before)
             cosine, sine = np.cos(pose[:, 2]), np.sin(pose[:, 2])
-            velocity[:, 0] = cosine * change[:, 0] + sine * change[:, 1]
-            velocity[:, 1] = cosine * change[:, 1] - sine * change[:, 0]
-            velocity[:, 2] = wrapped(pose[:, 2] - self._before[1][:, 2]) / (now - self._before[0])
+            forward, aside = cosine * change[:, 0] + sine * change[:, 1], cosine * change[:, 1] - sine * change[:, 0]
+            turning = wrapped(pose[:, 2] - then[:, 2]) / (now - before)
+            self._velocity = np.column_stack([forward, aside, turning])
         self._before = now, pose.copy()
         return FleetState(
             now=now,
@@ -177,5 +195,5 @@ class LiveSession(DispatcherSession):
             level=view.level,
             driving=(view.mode == Mode.FOLLOWING) | (view.mode == Mode.RECOVERING),
             gave_up=view.mode == Mode.ABORTED,
-            velocity=velocity,
+            velocity=self._velocity,
         )

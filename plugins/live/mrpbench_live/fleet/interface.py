@@ -7,6 +7,7 @@ from typing import ClassVar
 from mrpbench_core.api import Component, Event
 from mrpbench_live.fleet.paths import FleetPaths, FleetState
 from mrpbench_live.fleet.site import Site
+from mrpbench_live.fleet.transports import Transport
 
 
 class Connection(ABC):
@@ -25,6 +26,10 @@ class Connection(ABC):
         Returns:
             What the recording should say, with the time of `state`.
         """
+
+    @abstractmethod
+    def offer(self, transports: Sequence[Transport]) -> None:
+        """Tell the outside party of transports that it has to serve from now on."""
 
     @abstractmethod
     def close(self) -> None:

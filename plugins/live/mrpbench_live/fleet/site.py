@@ -14,6 +14,11 @@ FARTHEST = 1e6
 """Metres from the origin beyond which there is no vertex, whatever a message says."""
 
 
+def level_names(world: World) -> list[str]:
+    """Return the name of each level, as protocols call it."""
+    return [level.name or f"level_{index}" for index, level in enumerate(world.levels)]
+
+
 class Site:
     """A roadmap as protocols see it.
 
@@ -27,7 +32,7 @@ class Site:
         self.world, self.roadmap, self.fleet = world, roadmap, fleet
         self.robots, self.profiles = fleet.names, fleet.profiles[1]
         """The name and the motion profile of each robot."""
-        self.levels = [level.name or f"level_{index}" for index, level in enumerate(world.levels)]
+        self.levels = level_names(world)
         """The name of each level."""
         self.level_of = {name: index for index, name in enumerate(self.levels)}
         names = {f"v{vertex}": vertex for vertex in range(len(roadmap.position))}

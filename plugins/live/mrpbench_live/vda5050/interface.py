@@ -1,7 +1,7 @@
 """The interface `vda5050`: every robot is a vehicle of its own for an outside fleet control."""
 
 import json
-import time
+import math
 from collections.abc import Sequence
 from typing import Any, Literal
 
@@ -14,6 +14,7 @@ from mrpbench_core.files.printing import printable
 from mrpbench_live.fleet.interface import Connection, Interface
 from mrpbench_live.fleet.paths import FleetPaths, FleetState
 from mrpbench_live.fleet.site import Site
+from mrpbench_live.fleet.transports import Transport
 from mrpbench_live.vda5050.battery import Battery
 from mrpbench_live.vda5050.condition import Here
 from mrpbench_live.vda5050.instant import InstantActions
@@ -21,11 +22,13 @@ from mrpbench_live.vda5050.messages import Headers, factsheet_of, position_of, r
 from mrpbench_live.vda5050.names import VERSIONS, Names
 from mrpbench_live.vda5050.schemas import validator
 from mrpbench_live.vda5050.track import Track
+from mrpbench_live.vda5050.transports import TRANSPORTS, transport_message
 from mrpbench_live.vda5050.vehicle import Vehicle
 from mrpbench_live.vda5050.wire import Broker, Client, Wire
+from mrpbench_live.vda5050.wire_faults import FaultyWire, WireFaults
 
 LEAST_INTERVAL = 0.1
-"""Seconds between two states of a vehicle at least."""
+"""Simulated seconds between two states of a vehicle at least."""
 CONNECTING_S = 30.0
 """Seconds within which all vehicles have to be connected."""
 LONGEST = 300
@@ -42,12 +45,13 @@ class Vda5050(Interface):
     version: Literal["2.1", "3.0"] = option("3.0", help="of VDA 5050")
     topics: str = option("", help="what topics begin with; empty: `uagv/v2` in 2.1, `vda5050/v3` in 3.0")
     manufacturer: str = option("mrpbench", help="second last part of topics but one; the serial number is robot_0, …")
-    state_interval: float = option(1.0, help="most time between two states of a vehicle", unit="s", validator=gt(0))
+    state_interval: float = option(1.0, help="most simulated time between two states", unit="s", validator=gt(0))
     visualization_interval: float = option(
-        0.0, help="time between two messages on `visualization`; 0: there are none", unit="s", validator=ge(0)
+        0.0, help="simulated time between two messages on `visualization`; 0: there are none", unit="s", validator=ge(0)
     )
     action_time: float = option(5.0, help="simulated time that actions like `pick` take", unit="s", validator=ge(0))
     battery: Battery = option(Battery(), help="model of the batteries")
+    faults: WireFaults = option(WireFaults(), help="of the wire")
 
     def connect(self, site: Site, paths: FleetPaths) -> "VdaFleet":
         """Connect all vehicles.
@@ -63,8 +67,10 @@ class VdaFleet(Connection):
 
     def __init__(self, recipe: Vda5050, site: Site, paths: FleetPaths) -> None:
         self._wire = Wire(Broker.of(recipe.url))
-        self._paths, self._now = paths, 0.0
+        self._paths, self._maps, self._now = paths, site.levels, 0.0
+        self._cut_for = recipe.faults.cut_for
         self._events: list[Event] = []
+        self.faulty = FaultyWire(recipe.faults, self._wire)
         self._members = [_Member(self, self._wire, recipe, site, paths, robot) for robot in range(len(site.fleet))]
         self._facts = np.full((3, len(site.fleet)), -1)
         """i8[3,n] what the vehicles knew last: moves that they have made, whether they drive, whether they gave up."""
@@ -79,7 +85,9 @@ class VdaFleet(Connection):
 
     def exchange(self, state: FleetState, due: float) -> Sequence[Event]:
         """Advance all vehicles, send what they have to say, and take in what waits or comes until `due`."""
-        self._now, now = state.now, time.monotonic()
+        self._now = now = state.now
+        if self.faulty.advance(now):
+            self.note(-1, "connections_cut", f"for {self._cut_for:g} s")
         facts = np.stack([self._paths.passed, state.driving, state.gave_up])
         other = (facts != self._facts).any(axis=0)
         self._facts = facts
@@ -99,6 +107,12 @@ class VdaFleet(Connection):
         self._wire.serve(due)
         events, self._events = self._events, []
         return events
+
+    def offer(self, transports: Sequence[Transport]) -> None:
+        """Publish transports, which VDA 5050 leaves to fleet controls: each as `transport_message` has it."""
+        for transport in transports:
+            message = transport_message(transport, self._maps)
+            self._members[0].client.publish(TRANSPORTS, json.dumps(message).encode(), qos=1)
 
     def close(self) -> None:
         """Say that all vehicles are offline."""
@@ -128,9 +142,9 @@ class _Member:
         self._vehicle = Vehicle(track, self._names, recipe.battery, recipe.action_time, note)
         self._vehicle.last_node = track.name(track.end)
         self._instant = InstantActions(self._vehicle, track, self._names, note)
-        now = time.monotonic()
-        self._state_at = now + recipe.state_interval * (robot % 97) / 97  # not all at once
-        self._visualization_at = now if recipe.visualization_interval else float("inf")
+        self._phase = recipe.state_interval * (robot % 97) / 97  # not all at once, also after what all meet at one time
+        self._state_at = self._phase
+        self._visualization_at = 0.0 if recipe.visualization_interval else float("inf")
         self._not_before = 0.0
         will = {**self._headers.next("connection"), "connectionState": self._names.connection_broken}
         self.client = Client(
@@ -139,12 +153,13 @@ class _Member:
             (f"{self._topic}connection", json.dumps(will).encode()),
             (f"{self._topic}order", f"{self._topic}instantActions"),
             self._online,
-            self._take,
+            lambda topic, payload: fleet.faulty.carry(lambda: self._take(topic, payload)),
         )
+        self._carry = fleet.faulty.carry
 
     @property
     def due(self) -> float:
-        """The time of `time.monotonic` at which a message is due."""
+        """The simulated time at which a message is due."""
         return min(self._state_at, self._visualization_at)
 
     @property
@@ -162,7 +177,7 @@ class _Member:
         if (vehicle.changed and now >= self._not_before) or now >= self._state_at:
             self._send_state(now)
         if now >= self._visualization_at:
-            self._visualization_at = now + self._intervals[2]
+            self._visualization_at = now + self._intervals[2] - 1e-9
             self._send("visualization", self._visualization())
 
     def leave(self) -> None:
@@ -178,7 +193,9 @@ class _Member:
     def _send_state(self, now: float) -> None:
         if self._send("state", state_of(self._vehicle, self._maps, self._names)):
             self._vehicle.changed = False
-        self._state_at, self._not_before = now + self._intervals[1], now + LEAST_INTERVAL
+        interval = self._intervals[1]
+        self._state_at = self._phase + interval * (math.floor((now - self._phase) / interval + 1e-6) + 1) - 1e-9
+        self._not_before = now + LEAST_INTERVAL - 1e-9  # control periods do not add up exactly
 
     def _send_factsheet(self) -> None:
         self._send("factsheet", factsheet_of(self._robot, self._names, self._intervals, self._headings), retain=True)
@@ -195,8 +212,11 @@ class _Member:
     def _send(self, topic: str, body: dict[str, Any], qos: int = 0, retain: bool = False) -> bool:
         if not self.client.connected:
             return False
-        message = {**self._headers.next(topic), **body}
-        return self.client.publish(self._topic + topic, json.dumps(message).encode(), qos, retain)
+        payload = json.dumps({**self._headers.next(topic), **body}).encode()
+        if retain:
+            return self.client.publish(self._topic + topic, payload, qos, retain)
+        self._carry(lambda: self.client.publish(self._topic + topic, payload, qos))
+        return True
 
     def _take(self, topic: str, payload: bytes) -> None:
         """Take in a message of the fleet control, whatever it is."""

@@ -44,6 +44,10 @@ class Names:
             return min(float(given["a"]), float(given["b"]))
         return None if given is None else float(given)
 
+    def allowed_deviation(self, metres: float) -> object:
+        """Return `allowedDeviationXY` of a node that counts as traversed within some metres."""
+        return {"a": metres, "b": metres, "theta": 0.0} if self.single else metres
+
 
 _ORDER = {
     "VALIDATION_FAILURE": ("validationError", "WARNING"),

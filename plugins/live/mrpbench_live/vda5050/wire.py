@@ -2,6 +2,7 @@
 
 import os
 import selectors
+import socket
 import time
 from collections.abc import Callable
 from typing import Any
@@ -203,6 +204,13 @@ class Wire:
                         client.mqtt.reconnect()
                     except OSError:
                         return  # all have the same broker
+
+    def cut(self, seconds: float) -> None:
+        """Break all connections without a word, and do not connect again for so many seconds."""
+        self._retry_at = time.monotonic() + seconds
+        for client in self._clients:
+            if (sock := client.mqtt.socket()) is not None:
+                sock.shutdown(socket.SHUT_RDWR)
 
     def close(self) -> None:
         """Disconnect all clients, after what they have to send."""
