@@ -75,9 +75,11 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "mrpbench-live": {
         "mrpbench.commands": ("check-vda5050", "serve"),
-        "mrpbench.dispatchers": ("live",),
-        "mrpbench.interfaces": ("vda5050",),
-        "mrpbench.planners": ("live",),
+        "mrpbench.dispatchers": ("live", "rmf"),
+        "mrpbench.interfaces": ("rmf", "vda5050"),
+        "mrpbench.navigators": ("rmf",),
+        "mrpbench.planners": ("live", "rmf"),
+        "mrpbench.simulators": ("rmf",),
         "mrpbench.task_sources": ("live",),
     },
     "mrpbench-policies": {

@@ -39,13 +39,13 @@ class Messages:
 
     def __init__(self, path: Path) -> None:
         idl, self._types = _library(path)
-        self._types_of_fields: dict[str, dict[str, Any]] = {}
+        self._fields: dict[str, dict[str, Any]] = {}
         self._made: dict[str, Any] = {}
         for name, fields in _read(path).items():
             package, short = name.split("/")
             kinds = {field: self._kind(kind) for field, kind in fields.items()}
             self._made[name] = idl.make_idl_struct(short, f"{package}::msg::dds_::{short}_", kinds)
-            self._types_of_fields[name] = fields
+            self._fields[name] = fields
 
     def type(self, name: str) -> Any:
         """Return the type of messages such as `rmf_prototype_msgs/Plan`."""
@@ -53,8 +53,9 @@ class Messages:
 
     def new(self, name: str, /, **values: Any) -> Any:
         """Return a message; fields that are not given are zero or empty, those that it does not have are left out."""
-        fields = self._types_of_fields[name]
-        return self._made[name](**{field: values.get(field, self._empty(kind)) for field, kind in fields.items()})
+        fields = self._fields[name].items()
+        given = {field: values[field] if field in values else self._empty(kind) for field, kind in fields}
+        return self._made[name](**given)
 
     def _empty(self, field: Mapping[str, Any]) -> Any:
         if field["array"] is None:
