@@ -12,7 +12,9 @@ from mrpbench_core.api import InputError
 DEFINITIONS = Path(__file__).with_name("definitions.txt")
 """The definitions that this distribution brings."""
 HINT = "pip install 'mrpbench-live[rmf]'"
-FIELD = re.compile(r"(?P<type>[a-z0-9_]+(/[A-Za-z0-9]+)?)(?P<array>\[(?P<bound><=)?(?P<size>\d*)\])? (?P<name>[a-z0-9_]+)")
+FIELD = re.compile(
+    r"(?P<type>[a-z0-9_]+(/[A-Za-z0-9]+)?)(?P<array>\[(?P<bound><=)?(?P<size>\d*)\])? (?P<name>[a-z0-9_]+)"
+)
 NUMBERS = "uint8", "int32", "uint32", "int64", "uint64", "float32", "float64"
 
 CODE_UNKNOWN_DESTINATION, CODE_TEMPORARILY_UNREACHABLE, CODE_UNREACHABLE = 1001, 1002, 1004
@@ -82,8 +84,8 @@ class Messages:
 
 def _library(path: Path) -> tuple[Any, Any]:
     try:
-        from cyclonedds import idl  # noqa: PLC0415 - an optional library
-        from cyclonedds.idl import types  # noqa: PLC0415
+        from cyclonedds import idl
+        from cyclonedds.idl import types
     except ImportError as error:
         raise InputError(f"rmf: cyclonedds cannot be imported: {error}", hint=HINT) from error
     if not path.is_file():
@@ -103,7 +105,9 @@ def _read(path: Path) -> dict[str, dict[str, Any]]:
             match = FIELD.fullmatch(text)
             known = match is not None and (match["type"] in (*NUMBERS, "string") or match["type"] in found)
             if match is None or fields is None or not known:
-                raise InputError(f"{path}:{number}: expected `MSG: package/Name` or a field of a known type, got {text!r}")
+                raise InputError(
+                    f"{path}:{number}: expected `MSG: package/Name` or a field of a known type, got {text!r}"
+                )
             fields[match["name"]] = match.groupdict()
     return found
 

@@ -40,8 +40,8 @@ class Wire:
     """
 
     def __init__(self, messages: Messages, domain: int) -> None:
-        from cyclonedds.core import DDSException  # noqa: PLC0415 - an optional library
-        from cyclonedds.domain import DomainParticipant  # noqa: PLC0415
+        from cyclonedds.core import DDSException
+        from cyclonedds.domain import DomainParticipant
 
         self.messages = messages
         self._takers: list[tuple[Any, Callable[[Any], None]]] = []
@@ -53,7 +53,9 @@ class Wire:
         try:
             self._participant = DomainParticipant(domain)
         except DDSException as error:
-            raise InputError(f"rmf: DDS domain {domain} cannot be joined: {error}", hint="see CYCLONEDDS_URI") from error
+            raise InputError(
+                f"rmf: DDS domain {domain} cannot be joined: {error}", hint="see CYCLONEDDS_URI"
+            ) from error
 
     def publish(self, topic: str, message: Any) -> None:
         """Send a message on a topic such as `robot_1/plan`."""
@@ -64,14 +66,14 @@ class Wire:
 
     def advertise(self, topic: str) -> None:
         """Let others find a topic on which messages will be sent."""
-        from cyclonedds.pub import DataWriter, Publisher  # noqa: PLC0415 - an optional library
+        from cyclonedds.pub import DataWriter, Publisher
 
         latched = _kind(topic) in LATCHED
         self._writers[topic] = DataWriter(Publisher(self._participant), self._topic(topic), qos=_qos(latched))
 
     def subscribe(self, topic: str, take: Callable[[Any], None]) -> None:
         """Call `take` with each message on a topic, within `serve`."""
-        from cyclonedds.sub import DataReader, Subscriber  # noqa: PLC0415 - an optional library
+        from cyclonedds.sub import DataReader, Subscriber
 
         latched = _kind(topic) in LATCHED and _kind(topic) != "destination"  # some senders of these keep nothing
         subscriber = Subscriber(self._participant)
@@ -98,7 +100,7 @@ class Wire:
         del self._participant
 
     def _topic(self, topic: str) -> Any:
-        from cyclonedds.topic import Topic  # noqa: PLC0415 - an optional library
+        from cyclonedds.topic import Topic
 
         if topic not in self._topics:
             kind = self.messages.type(TOPICS[_kind(topic)])
@@ -112,8 +114,8 @@ def _kind(topic: str) -> str:
 
 
 def _qos(latched: bool) -> Any:
-    from cyclonedds.qos import Policy, Qos  # noqa: PLC0415 - an optional library
-    from cyclonedds.util import duration  # noqa: PLC0415
+    from cyclonedds.qos import Policy, Qos
+    from cyclonedds.util import duration
 
     return Qos(
         Policy.Reliability.Reliable(duration(milliseconds=100)),

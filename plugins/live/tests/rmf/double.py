@@ -1,8 +1,8 @@
 """Stands for the reference modules of next-generation Open-RMF, in a process of its own.
 
-Written from their documented behaviour (next_gen_prototype: `discourse/2-traffic-management-interfaces.md`, the comments
-of the messages, the README files, and what its mock robot publishes), with message types of its own, so that an error
-in those of mrpbench is found. It plays the two scenarios that the prototype publishes:
+Written from their documented behaviour (`discourse/2-traffic-management-interfaces.md` of next_gen_prototype, the
+comments of its messages, and what its mock robot publishes), with message types of its own, so that an error in those
+of mrpbench is found. It plays the two scenarios that the prototype publishes:
 
 - `redirect`: a robot is sent past another one that stays, and elsewhere when it is under way;
 - `follow`: a robot of 4 m/s behind one of 1 m/s, never nearer than 0.95 m.
@@ -229,7 +229,9 @@ class Progress(IdlStruct, typename=P + "Progress_"):
 
 
 LATCHED = Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.Durability.TransientLocal)
-VOLATILE = Qos(Policy.Reliability.Reliable(duration(seconds=1)), Policy.Durability.Volatile, Policy.History.KeepLast(10))
+VOLATILE = Qos(
+    Policy.Reliability.Reliable(duration(seconds=1)), Policy.Durability.Volatile, Policy.History.KeepLast(10)
+)
 RADIUS = 0.49
 X, Y = 1.5, 5.5  # the origin of the scenarios, in the world of the test
 NAMES = "robot_0", "robot_1"
@@ -428,7 +430,11 @@ def main(part, scenario, domain, pace):
             goals[0], session = (X + 5, Y + 5), 3
         for robot, (name, goal) in enumerate(zip(NAMES, goals, strict=True)):
             bus.send(f"{name}/destination", destination(session if robot == 0 else 2, *goal), LATCHED)
-        near = [max(abs(a - b) for a, b in zip(places[name], goal, strict=True)) < 0.25 for name, goal in zip(NAMES, goals, strict=True)]
+        off = [
+            max(abs(places[name][axis] - goal[axis]) for axis in (0, 1))
+            for name, goal in zip(NAMES, goals, strict=True)
+        ]
+        near = [it < 0.25 for it in off]
         if all(near) and (scenario != "redirect" or session == 3):
             break
     print(json.dumps({"arrived": near, "least": least, "redirected": session == 3, "named": sorted(named)}))

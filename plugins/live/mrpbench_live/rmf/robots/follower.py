@@ -1,6 +1,7 @@
 """One robot that follows plans: its waypoints as moves, how far it may go, and how far it is."""
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import attrs
@@ -18,12 +19,17 @@ ProgressOf = Callable[[str, PlanKey], float]
 """Return the progress of a participant along a plan; 0 if it follows another one."""
 
 
-@attrs.frozen
-class PlanFault(Exception):
-    """A plan cannot be followed."""
+class PlanFaultError(Exception):
+    """A plan cannot be followed.
 
-    code: int
-    message: str
+    Args:
+        code: of `PlanError`.
+        message: why.
+    """
+
+    def __init__(self, code: int, message: str) -> None:
+        super().__init__(message)
+        self.code, self.message = code, message
 
 
 @attrs.define
@@ -79,13 +85,13 @@ class Follower:
             level: on which the robot is, for waypoints without maps.
 
         Raises:
-            PlanFault: it cannot be followed; the robot keeps its path.
+            PlanFaultError: it cannot be followed; the robot keeps its path.
         """
         key = plan_key(plan.plan_id)
         if key == self.key:
             return None
         vertices = self._vertices(plan, level)
-        legs = [self._way(tail, head) for tail, head in zip(vertices, vertices[1:], strict=False)]
+        legs = [self._way(tail, head) for tail, head in pairwise(vertices)]
         paths, robot = self._paths, self._robot
         left = max(int(paths.released[robot]), int(paths.passed[robot]))
         kept = self._track[: left - self._base + 1]
@@ -176,20 +182,20 @@ class Follower:
     def _vertices(self, plan: Any, level: int) -> list[int]:
         """The vertex of each waypoint."""
         if not plan.waypoints:
-            raise PlanFault(UNSPECIFIED, "the plan has no waypoints")
+            raise PlanFaultError(UNSPECIFIED, "the plan has no waypoints")
         if plan.workflow:
-            raise PlanFault(CODE_UNRECOGNIZED_ACTION, "workflows are not supported")
+            raise PlanFaultError(CODE_UNRECOGNIZED_ACTION, "workflows are not supported")
         found = []
         for index, waypoint in enumerate(plan.waypoints):
             if waypoint.departure_action or waypoint.arrival_action:
-                raise PlanFault(CODE_UNRECOGNIZED_ACTION, f"waypoint {index} has an action, and none is supported")
+                raise PlanFaultError(CODE_UNRECOGNIZED_ACTION, f"waypoint {index} has an action, and none is supported")
             known = [self._site.level_of[name] for name in waypoint.maps if name in self._site.level_of]
             if waypoint.maps and not known:
-                raise PlanFault(UNSPECIFIED, f"waypoint {index} is on unknown maps: {', '.join(waypoint.maps)}")
+                raise PlanFaultError(UNSPECIFIED, f"waypoint {index} is on unknown maps: {', '.join(waypoint.maps)}")
             x, y = map(float, waypoint.position)
             vertex = self._site.nearest(x, y, known[0] if known else level)
             if vertex is None:
-                raise PlanFault(UNSPECIFIED, f"waypoint {index} at ({x:g}, {y:g}) is not on the roadmap")
+                raise PlanFaultError(UNSPECIFIED, f"waypoint {index} at ({x:g}, {y:g}) is not on the roadmap")
             found.append(vertex)
         return found
 
@@ -197,5 +203,5 @@ class Follower:
         way = self._site.way(self._profile, tail, head)
         if way is None:
             where = [", ".join(f"{it:g}" for it in self._site.roadmap.position[vertex]) for vertex in (tail, head)]
-            raise PlanFault(UNSPECIFIED, f"no way leads from ({where[0]}) to ({where[1]})")
+            raise PlanFaultError(UNSPECIFIED, f"no way leads from ({where[0]}) to ({where[1]})")
         return way

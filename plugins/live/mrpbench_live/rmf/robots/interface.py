@@ -3,6 +3,7 @@
 import math
 import time
 from collections.abc import Sequence
+from functools import partial
 from typing import Any, Literal
 
 import attrs
@@ -15,7 +16,7 @@ from mrpbench_live.fleet.interface import Connection, Interface
 from mrpbench_live.fleet.paths import FleetPaths, FleetState
 from mrpbench_live.fleet.site import Site
 from mrpbench_live.rmf.messages import PlanKey, messages_of, plan_key, stamp
-from mrpbench_live.rmf.robots.follower import Follower, PlanFault
+from mrpbench_live.rmf.robots.follower import Follower, PlanFaultError
 from mrpbench_live.rmf.wire import DISCOVERY, Wire
 
 DISCOVERY_S = 1.0
@@ -71,7 +72,7 @@ class RmfFleet(Connection):
             self._progress[name] = None, 0.0
             for topic in ("odom", "plan/progress", "plan/error"):
                 self._wire.advertise(f"{name}/{topic}")
-            self._wire.subscribe(f"{name}/plan", lambda plan, robot=robot: self._take(robot, plan))
+            self._wire.subscribe(f"{name}/plan", partial(self._take, robot))
             if not self._obeys_plans:
                 self._wire.subscribe(f"{name}/plan/release", self._followers[robot].release)
 
@@ -101,7 +102,7 @@ class RmfFleet(Connection):
         assert self._state is not None
         try:
             said = self._followers[robot].take(plan, int(self._state.level[robot]))
-        except PlanFault as fault:
+        except PlanFaultError as fault:
             error = self._messages.new("rmf_prototype_msgs/Error", code=fault.code, message=fault.message)
             refusal = self._messages.new("rmf_prototype_msgs/PlanError", error=error, plan_id=plan.plan_id)
             self._wire.publish(f"{self._names[robot]}/plan/error", refusal)
@@ -112,9 +113,7 @@ class RmfFleet(Connection):
 
     def _note(self, robot: int, kind: str, detail: str) -> None:
         assert self._state is not None
-        self._events.append(
-            Event(stamp=self._state.now, kind=kind, robot=robot, detail=printable(detail)[:LONGEST])
-        )
+        self._events.append(Event(stamp=self._state.now, kind=kind, robot=robot, detail=printable(detail)[:LONGEST]))
 
     def _report(self, robot: int, state: FleetState) -> None:
         """Publish the position of a robot, and its progress if it has a plan."""

@@ -112,7 +112,7 @@ class RmfRobots(Simulator):
         traffic = Traffic(messages, wire, fleet.names)
         starts = dict(zip(fleet.names, map(tuple, placements[:, :2].tolist()), strict=True))
         try:
-            traffic.participants.meet(starts, self.patience)  # type: ignore[arg-type]
+            traffic.participants.meet(starts, self.patience)
         except BaseException:
             wire.close()
             raise

@@ -3,6 +3,7 @@
 from typing import Any
 
 import attrs
+import numpy as np
 
 from mrpbench_core.api import Roadmap
 from mrpbench_live.rmf.messages import (
@@ -14,12 +15,17 @@ REACH = 1.0
 """Metres from the roadmap within which a destination means its nearest vertex; on a raster, its cell."""
 
 
-@attrs.frozen
-class Refused(Exception):  # noqa: N818 - the word of the interface is error, and this one is sent
-    """A destination cannot be planned for."""
+class RefusedError(Exception):
+    """A destination cannot be planned for.
 
-    code: int
-    message: str
+    Args:
+        code: of `DestinationError`.
+        message: why.
+    """
+
+    def __init__(self, code: int, message: str) -> None:
+        super().__init__(message)
+        self.code, self.message = code, message
 
 
 @attrs.frozen
@@ -36,18 +42,20 @@ def wish_of(destination: Any, roadmap: Roadmap, level: int) -> Wish:
     A target orientation chooses among the vertices at one place, where these have headings.
 
     Raises:
-        Refused: it names no region, or none on the roadmap.
+        RefusedError: it names no region, or none on the roadmap.
     """
     regions = destination.constraints.regions
     if not regions:
-        raise Refused(CODE_INCOMPATIBLE_CONSTRAINT, "a destination needs a region; keys of graphs are not supported")
+        raise RefusedError(
+            CODE_INCOMPATIBLE_CONSTRAINT, "a destination needs a region; keys of graphs are not supported"
+        )
     points = regions[0].region.points
     if len(points) < 2:
-        raise Refused(CODE_INCOMPATIBLE_CONSTRAINT, "the first region has no point")
+        raise RefusedError(CODE_INCOMPATIBLE_CONSTRAINT, "the first region has no point")
     x, y = map(float, points[:2])
-    vertex = int(roadmap.locate([[x, y]], [level])[0])  # type: ignore[arg-type,list-item]
+    vertex = int(roadmap.locate(np.array([[x, y]]), np.array([level], np.int16))[0])
     if vertex < 0:
-        raise Refused(CODE_UNKNOWN_DESTINATION, f"({x:g}, {y:g}) is not on the roadmap")
+        raise RefusedError(CODE_UNKNOWN_DESTINATION, f"({x:g}, {y:g}) is not on the roadmap")
     for orientation in regions[0].orientations[:1]:
-        vertex = int(roadmap.facing([vertex], [float(orientation.orientation_radians)])[0])  # type: ignore[arg-type,list-item]
+        vertex = int(roadmap.facing(np.array([vertex], np.int32), np.array([orientation.orientation_radians]))[0])
     return Wish(session=bytes(destination.session.uuid), vertex=vertex)

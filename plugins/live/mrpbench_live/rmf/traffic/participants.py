@@ -3,6 +3,7 @@
 import math
 import time
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import attrs
@@ -48,12 +49,10 @@ class Participants:
             wire.advertise(f"{name}/plan")
             wire.advertise(f"{name}/plan/release")
             wire.advertise(f"{name}/destination/error")
-            wire.subscribe(f"{name}/odom", lambda message, robot=robot: self._locate(robot, message))
-            wire.subscribe(f"{name}/plan/progress", lambda message, robot=robot: self._hear(robot, message))
-            wire.subscribe(
-                f"{name}/destination", lambda message, robot=robot: self.destinations.__setitem__(robot, message)
-            )
-            wire.subscribe(f"{name}/plan/error", lambda message, robot=robot: self.errors.__setitem__(robot, message))
+            wire.subscribe(f"{name}/odom", partial(self._locate, robot))
+            wire.subscribe(f"{name}/plan/progress", partial(self._hear, robot))
+            wire.subscribe(f"{name}/destination", partial(self.destinations.__setitem__, robot))
+            wire.subscribe(f"{name}/plan/error", partial(self.errors.__setitem__, robot))
 
     def meet(self, starts: Mapping[str, tuple[float, float]], patience: float) -> None:
         """Wait until all robots say where they are.

@@ -8,7 +8,7 @@ import numpy as np
 from mrpbench_core.api import Event, Goals, Int, Int32, Plan, Problem
 from mrpbench_core.files.printing import printable
 from mrpbench_live.rmf.messages import CODE_TEMPORARILY_UNREACHABLE, Messages, plan_key, stamp
-from mrpbench_live.rmf.traffic.destinations import Refused, Wish, wish_of
+from mrpbench_live.rmf.traffic.destinations import RefusedError, Wish, wish_of
 from mrpbench_live.rmf.traffic.participants import Participants
 from mrpbench_live.rmf.traffic.posting import Posted, Waypoints, blockers_of, message_of, waypoints_of
 from mrpbench_live.rmf.wire import Wire
@@ -53,14 +53,13 @@ class Traffic:
         """
         events = []
         level = problem.roadmap.level[problem.start]
-        destinations, self.participants.destinations = self.participants.destinations, {}
-        for robot, destination in destinations.items():
+        for robot, destination in _all_of(self.participants.destinations):
             known = self.wishes.get(robot)
             if known is not None and known.session == bytes(destination.session.uuid):
                 continue
             try:
                 wish = wish_of(destination, problem.roadmap, int(level[robot]))
-            except Refused as refused:
+            except RefusedError as refused:
                 self._refuse(robot, bytes(destination.session.uuid), refused.code, refused.message)
                 events.append(Event(stamp=now, kind="destination_refused", robot=robot, detail=refused.message))
                 continue
@@ -69,8 +68,7 @@ class Traffic:
             self.unplanned[robot] = f"{self._names[robot]} has another destination"
             x, y = problem.roadmap.position[wish.vertex].tolist()
             events.append(Event(stamp=now, kind="destination", robot=robot, detail=f"({x:g}, {y:g})"))
-        errors, self.participants.errors = self.participants.errors, {}
-        for robot, error in errors.items():
+        for robot, error in _all_of(self.participants.errors):
             posted = self.posted.get(robot)
             if posted is not None and posted.key == plan_key(error.plan_id):
                 detail = printable(f"{error.error.code} {error.error.message}")[:300]
@@ -172,3 +170,10 @@ class Traffic:
         uuid = self._messages.new("unique_identifier_msgs/UUID", uuid=list(session))
         message = self._messages.new(f"{PACKAGE}/DestinationError", error=error, session=uuid)
         self.wire.publish(f"{self._names[robot]}/destination/error", message)
+
+
+def _all_of(newest: dict[int, Any]) -> list[tuple[int, Any]]:
+    """Take out what has come."""
+    found = list(newest.items())
+    newest.clear()
+    return found
