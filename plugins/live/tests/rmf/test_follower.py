@@ -28,7 +28,10 @@ class Line:
             tick=0.1,
         )
         model = RobotModel(
-            name="box", footprint=[(0.2, 0.15), (-0.2, 0.15), (-0.2, -0.15), (0.2, -0.15)], max_speed=1.0
+            name="box",
+            footprint=[(0.2, 0.15), (-0.2, 0.15), (-0.2, -0.15), (0.2, -0.15)],
+            max_speed=1.0,
+            max_turn_rate=1.0,
         )
         self.site = Site(World(name="line", levels=(Level(name="ground"),)), roadmap, Fleet(robots=(model,)))
         self.paths = FleetPaths(roadmap, np.array([3]))
