@@ -34,6 +34,8 @@ class Traffic:
         self.participants = Participants(wire, names)
         self.wishes: dict[int, Wish] = {}
         """Where each robot is to go, in the order in which that was asked."""
+        self._waiting: set[int] = set()
+        """Robots at whose destinations others are."""
         self.unplanned: dict[int, str] = {}
         """Why some robots need another plan."""
         self.posted: dict[int, Posted] = {}
@@ -64,6 +66,7 @@ class Traffic:
                 events.append(Event(stamp=now, kind="destination_refused", robot=robot, detail=refused.message))
                 continue
             self.wishes.pop(robot, None)
+            self._waiting.discard(robot)
             self.wishes[robot] = wish
             self.unplanned[robot] = f"{self._names[robot]} has another destination"
             x, y = problem.roadmap.position[wish.vertex].tolist()
@@ -79,24 +82,33 @@ class Traffic:
     def goals(self, ends: Sequence[int]) -> Goals:
         """Return where robots are to go: to their destinations, or to where they end anyway, `ends`[n].
 
-        A destination that is that of another robot, or at which one stands that has none, is refused for now.
+        Where another robot is or will be at a destination, a robot waits until that has another one.
         """
-        goals = [((end,),) for end in ends]
-        taken = {end for robot, end in enumerate(ends) if robot not in self.wishes}
-        for robot, wish in list(self.wishes.items()):
-            if wish.vertex in taken:
-                del self.wishes[robot]
-                self._refuse(robot, wish.session, CODE_TEMPORARILY_UNREACHABLE, "another robot is or will be there")
-                taken.add(ends[robot])
-            else:
-                goals[robot] = ((wish.vertex,),)
-                taken.add(wish.vertex)
-        return tuple(goals)
+        before, self._waiting = self._waiting, set()
+        while (robot := self._robbed(ends)) is not None:
+            self._waiting.add(robot)
+        for robot in sorted(self._waiting - before):
+            session = self.wishes[robot].session
+            self._refuse(robot, session, CODE_TEMPORARILY_UNREACHABLE, "another robot is or will be there")
+        return tuple(((self.wishes[robot].vertex if self._goes(robot) else end,),) for robot, end in enumerate(ends))
+
+    def _goes(self, robot: int) -> bool:
+        """Tell whether a robot has a destination, and may go there."""
+        return robot in self.wishes and robot not in self._waiting
+
+    def _robbed(self, ends: Sequence[int]) -> int | None:
+        """The first robot whose destination is that of one before it, or where a robot stays; None: there is none."""
+        taken = {end for robot, end in enumerate(ends) if not self._goes(robot)}
+        for robot, wish in self.wishes.items():
+            if self._goes(robot) and wish.vertex in taken:
+                return robot
+            taken.add(wish.vertex)
+        return None
 
     def failed(self) -> None:
         """Say that there is no plan to the destinations that are new."""
         for robot in self.unplanned:
-            if robot in self.wishes:
+            if self._goes(robot):
                 session = self.wishes[robot].session
                 self._refuse(robot, session, CODE_TEMPORARILY_UNREACHABLE, "no plan to the destination was found")
 
@@ -156,7 +168,7 @@ class Traffic:
         return found
 
     def _posted(self, robot: int, waypoints: Waypoints) -> Posted:
-        session = self.wishes[robot].session if robot in self.wishes else NOWHERE
+        session = self.wishes[robot].session if self._goes(robot) else NOWHERE
         key = robot.to_bytes(4) + session
         version = self._versions[key] = self._versions.get(key, -1) + 1
         uuid = self._messages.new("unique_identifier_msgs/UUID", uuid=list(session))
