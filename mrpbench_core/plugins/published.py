@@ -93,7 +93,6 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
 }
 """Names by entry-point group, by distribution. Of other distributions nothing is known before they are installed."""
 
-
 EXTRAS = {
     "mrpbench-standard": "",
     "mrpbench-analysis": "",
