@@ -137,7 +137,8 @@ class LiveSession(DispatcherSession):
         if change := self._pace.change(now):
             events.append(Event(stamp=now, kind="pace", detail=change))
             sys.stderr.write(f"at {now:.1f} s: {change}\n")
-        released, paths.released = self._moves.release(paths.passed, paths.allowed, self._ahead, self._released)
+        allowed = np.minimum(paths.allowed, paths.planned)
+        released, paths.released = self._moves.release(paths.passed, allowed, self._ahead, self._released)
         self._released = released
         replan = ""
         if paths.changed and now >= self._changed_at + self._interval - 1e-9:
@@ -153,8 +154,7 @@ class LiveSession(DispatcherSession):
         self._released = np.maximum(self._released - gone, problem.committed)
         if (self._moves.base + self._moves.count != self._paths.length).any():
             raise DispatchError("the plan does not have the paths of the outside party: use `planner: live`")
-        self._paths.changed.clear()
-        self._paths.forget(self._moves.base)
+        self._paths.adopt(self._moves.base)
 
     def close(self) -> None:
         """Leave the outside party."""

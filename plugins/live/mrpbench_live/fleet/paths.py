@@ -34,6 +34,8 @@ class FleetPaths:
         """i8[n] moves that it has completed."""
         self.released: Int = np.zeros(count, np.int64)
         """i8[n] moves that it may complete by now, and that cannot be taken back."""
+        self.planned: Int = np.zeros(count, np.int64)
+        """i8[n] moves of each path that the plan in force has, too."""
         self.changed: set[int] = set()
         """Robots whose path is not that of the plan in force."""
 
@@ -61,6 +63,7 @@ class FleetPaths:
             del self._edges[robot][left - self._first[robot] :]
             self._ends[robot] = self._tail[first]
             self.length[robot] = left
+            self.planned[robot] = min(int(self.planned[robot]), left)
             self.changed.add(robot)
         self.allowed[robot] = min(int(self.allowed[robot]), left)
         return left
@@ -69,8 +72,10 @@ class FleetPaths:
         """Return the edges of a path after its first moves."""
         return self._edges[robot][moves - self._first[robot] :]
 
-    def forget(self, moves: Int) -> None:
-        """Forget what comes before some `moves` i8[n] of each path, which is driven."""
+    def adopt(self, moves: Int) -> None:
+        """Note that all paths are planned, and forget what comes before some `moves` i8[n] of each, which is driven."""
+        self.planned = self.length.copy()
+        self.changed.clear()
         for robot in np.flatnonzero(moves > self._first).tolist():
             del self._edges[robot][: int(moves[robot]) - self._first[robot]]
             self._first[robot] = int(moves[robot])
