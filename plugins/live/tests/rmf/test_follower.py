@@ -85,6 +85,15 @@ def test_a_robot_drives_as_far_as_it_is_released(line):
     assert line.paths.allowed[0] == 3
 
 
+def test_a_release_may_come_before_its_plan(line):
+    line.release(1)
+    line.take(3, 4, 5)
+    assert line.paths.allowed[0] == 1
+    line.release(2, version=1)
+    line.take(3, 4, 5, version=1)
+    assert line.paths.allowed[0] == 2
+
+
 def test_progress_runs_from_waypoint_to_waypoint(line):
     line.take(3, 5, 6)
     assert line.robot.progress(3.0, 0.0) == (0.0, 0, 0)

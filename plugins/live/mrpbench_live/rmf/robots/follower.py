@@ -58,6 +58,8 @@ class Follower:
         self._site, self._paths, self._robot, self._progress_of = site, paths, robot, progress_of
         self._profile = int(site.profiles[robot])
         self._followed: _Followed | None = None
+        self._early: Any = None
+        """A release that came before its plan: topics keep no order among them."""
         self._base = 0
         """The move after which the robot is at the first vertex of `_track`."""
         self._track = [paths.end(robot)]
@@ -113,15 +115,19 @@ class Follower:
                 at[index] = self._append(self._way(self._track[-1], vertices[index]))
         self._followed = _Followed(plan=plan, key=key, at=at)
         self._allow()
+        if self._early is not None:
+            self.release(self._early)
         begins = "from the end of what is released" if joined is None else f"after move {begin}"
         return f"version {key[2]}, {len(at)} waypoints {begins}"
 
     def release(self, release: Any) -> None:
-        """Take in a `PlanRelease`; one for another plan counts for nothing."""
+        """Take in a `PlanRelease`; one for another plan counts only when that plan comes."""
         followed = self._followed
-        if followed is not None and plan_key(release.plan_id) == followed.key:
-            followed.released = max(followed.released, min(int(release.waypoint_id), len(followed.at) - 1))
-            self._allow()
+        if followed is None or plan_key(release.plan_id) != followed.key:
+            self._early = release
+            return
+        followed.released = max(followed.released, min(int(release.waypoint_id), len(followed.at) - 1))
+        self._allow()
 
     def watch(self) -> None:
         """Go on past waypoints whose blockers have made the progress that is required of them."""

@@ -36,6 +36,7 @@ from mrpbench_core.api import (
     Planner,
     PlannerSession,
     PlanResult,
+    PlanStatus,
     Problem,
     Promise,
     Route,
@@ -277,21 +278,32 @@ class RmfPlans(Planner):
 
     def start(self) -> PlannerSession:
         """Begin a session of the planner."""
-        return _ToDestinations(self.planner.start())
+        keeps = Feature.FOLLOWING_FORBIDDEN in self.planner.supports
+        return _ToDestinations(self.planner.start(), keeps)
 
 
 class _ToDestinations(PlannerSession):
-    """Asks a planner for ways to destinations."""
+    """Asks a planner for ways to destinations.
 
-    def __init__(self, session: PlannerSession) -> None:
-        self._session = session
+    Outside robots cannot rotate in step, so it asks at first for a plan in which no robot follows another closely.
+    """
+
+    def __init__(self, session: PlannerSession, can_keep_apart: bool) -> None:
+        self._session, self._can_keep_apart = session, can_keep_apart
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         traffic = _traffic("planner")
         ends = problem.start.tolist()
         for robot, path in enumerate(problem.commitments):
             ends[robot] = path.end(problem.roadmap, ends[robot])
-        result = self._session.plan(_with_goals(problem, traffic.goals(ends)), budget)
+        asked = _with_goals(problem, traffic.goals(ends))
+        result = PlanResult(status=PlanStatus.GAVE_UP)
+        if self._can_keep_apart:
+            rules = attrs.evolve(problem.rules, following="forbidden")
+            features = asked.features | {Feature.FOLLOWING_FORBIDDEN}
+            result = self._session.plan(attrs.evolve(asked, rules=rules, features=features), budget)
+        if result.plan is None:
+            result = self._session.plan(asked, budget)
         if result.plan is None:
             traffic.failed()
         return result
