@@ -27,6 +27,7 @@ EXTRAS = {
     "policies": "mrpbench-policies[gymnasium,onnx]",
     "pybullet": "mrpbench-simulators-pybullet",
     "ros2": "mrpbench-bridges-ros2",
+    "rmf": "mrpbench-live[rmf]",
     "rosbag2": "mrpbench-exporters-rosbag2",
     "search": "mrpbench-search",
     "statistics": "mrpbench-core[statistics]",

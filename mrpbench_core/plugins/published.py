@@ -72,11 +72,11 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     },
     "mrpbench-live": {
         "mrpbench.commands": ("check-vda5050", "control", "load", "serve"),
-        "mrpbench.dispatchers": ("live",),
-        "mrpbench.interfaces": ("vda5050",),
-        "mrpbench.navigators": ("vda5050",),
-        "mrpbench.planners": ("live",),
-        "mrpbench.simulators": ("vda5050",),
+        "mrpbench.dispatchers": ("live", "rmf"),
+        "mrpbench.interfaces": ("rmf", "vda5050"),
+        "mrpbench.navigators": ("rmf", "vda5050"),
+        "mrpbench.planners": ("live", "rmf"),
+        "mrpbench.simulators": ("rmf", "vda5050"),
         "mrpbench.task_sources": ("live", "vda5050"),
     },
     "mrpbench-policies": {
@@ -89,7 +89,6 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
     "mrpbench-simulators-pybullet": {"mrpbench.simulators": ("pybullet",)},
 }
 """Names by entry-point group, by distribution. Of other distributions nothing is known before they are installed."""
-
 
 EXTRAS = {
     "mrpbench-standard": "",

@@ -36,13 +36,13 @@ from mrpbench_core.api import (
     World,
     option,
 )
+from mrpbench_live.fleet.overlaps import Overlaps
 from mrpbench_live.fleet.pace import Pace
 from mrpbench_live.fleet.site import level_names
+from mrpbench_live.fleet.tracking import Tracker
 from mrpbench_live.vda5050.control.fleet import ForeignFleet
 from mrpbench_live.vda5050.control.itinerary import Itinerary
-from mrpbench_live.vda5050.control.overlaps import Overlaps
 from mrpbench_live.vda5050.control.sender import OrderSender
-from mrpbench_live.vda5050.control.tracking import Tracker
 
 
 class _Run:

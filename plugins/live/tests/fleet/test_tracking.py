@@ -3,7 +3,7 @@
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mrpbench_live.vda5050.control.tracking import Tracker
+from mrpbench_live.fleet.tracking import Tracker
 
 from mrpbench_core.api import RobotModel, wrapped
 

@@ -1,0 +1,191 @@
+"""What the components of one run share: the robots, where they are to go, and the plans that they were sent."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from mrpbench_core.api import Event, Goals, Int, Int32, Plan, Problem
+from mrpbench_core.files.printing import printable
+from mrpbench_live.rmf.messages import CODE_TEMPORARILY_UNREACHABLE, Messages, plan_key, stamp
+from mrpbench_live.rmf.traffic.destinations import RefusedError, Wish, wish_of
+from mrpbench_live.rmf.traffic.participants import Participants
+from mrpbench_live.rmf.traffic.posting import Posted, Waypoints, blockers_of, message_of, waypoints_of
+from mrpbench_live.rmf.wire import Wire
+
+PACKAGE = "rmf_prototype_msgs"
+Composed = tuple[list[Waypoints], dict[tuple[int, int], dict[int, int]]]
+"""The waypoints of all robots, and what `blockers_of` returns."""
+NOWHERE = bytes(16)
+"""Session of the plans of robots that have no destination, and have to make way."""
+
+
+class Traffic:
+    """The traffic of one run.
+
+    Args:
+        messages: the types.
+        wire: that sends and receives them.
+        names: of the robots.
+    """
+
+    def __init__(self, messages: Messages, wire: Wire, names: Sequence[str]) -> None:
+        self._messages, self.wire, self._names = messages, wire, names
+        self.participants = Participants(wire, names)
+        self.wishes: dict[int, Wish] = {}
+        """Where each robot is to go, in the order in which that was asked."""
+        self._waiting: set[int] = set()
+        """Robots at whose destinations others are."""
+        self.unplanned: dict[int, str] = {}
+        """Why some robots need another plan."""
+        self.posted: dict[int, Posted] = {}
+        """The plan of each robot."""
+        self._versions: dict[bytes, int] = {}
+        self._sessions = 0
+        """Plans that were made for all robots together."""
+        self._released: dict[int, int] = {}
+        """The waypoint that each robot was released to."""
+
+    def hear(self, now: float, problem: Problem) -> list[Event]:
+        """Take in destinations and errors; return what the recording should say.
+
+        Args:
+            now: simulated seconds.
+            problem: its roadmap has the destinations.
+        """
+        events = []
+        level = problem.roadmap.level[problem.start]
+        for robot, destination in _all_of(self.participants.destinations):
+            known = self.wishes.get(robot)
+            if known is not None and known.session == bytes(destination.session.uuid):
+                continue
+            try:
+                wish = wish_of(destination, problem.roadmap, int(level[robot]))
+            except RefusedError as refused:
+                self._refuse(robot, bytes(destination.session.uuid), refused.code, refused.message)
+                events.append(Event(stamp=now, kind="destination_refused", robot=robot, detail=refused.message))
+                continue
+            self.wishes.pop(robot, None)
+            self._waiting.discard(robot)
+            self.wishes[robot] = wish
+            self.unplanned[robot] = f"{self._names[robot]} has another destination"
+            x, y = problem.roadmap.position[wish.vertex].tolist()
+            events.append(Event(stamp=now, kind="destination", robot=robot, detail=f"({x:g}, {y:g})"))
+        for robot, error in _all_of(self.participants.errors):
+            posted = self.posted.get(robot)
+            if posted is not None and posted.key == plan_key(error.plan_id):
+                detail = printable(f"{error.error.code} {error.error.message}")[:300]
+                events.append(Event(stamp=now, kind="plan_error", robot=robot, detail=detail))
+                self.unplanned[robot] = f"{self._names[robot]} asks for another plan"
+        return events
+
+    def goals(self, ends: Sequence[int]) -> Goals:
+        """Return where robots are to go: to their destinations, or to where they end anyway, `ends`[n].
+
+        Where another robot is or will be at a destination, a robot waits until that has another one.
+        """
+        before, self._waiting = self._waiting, set()
+        while (robot := self._robbed(ends)) is not None:
+            self._waiting.add(robot)
+        for robot in sorted(self._waiting - before):
+            session = self.wishes[robot].session
+            self._refuse(robot, session, CODE_TEMPORARILY_UNREACHABLE, "another robot is or will be there")
+        return tuple(((self.wishes[robot].vertex if self._goes(robot) else end,),) for robot, end in enumerate(ends))
+
+    def _goes(self, robot: int) -> bool:
+        """Tell whether a robot has a destination, and may go there."""
+        return robot in self.wishes and robot not in self._waiting
+
+    def _robbed(self, ends: Sequence[int]) -> int | None:
+        """The first robot whose destination is that of one before it, or where a robot stays; None: there is none."""
+        taken = {end for robot, end in enumerate(ends) if not self._goes(robot)}
+        for robot, wish in self.wishes.items():
+            if self._goes(robot) and wish.vertex in taken:
+                return robot
+            taken.add(wish.vertex)
+        return None
+
+    def failed(self) -> None:
+        """Say that there is no plan to the destinations that are new."""
+        for robot in self.unplanned:
+            if self._goes(robot):
+                session = self.wishes[robot].session
+                self._refuse(robot, session, CODE_TEMPORARILY_UNREACHABLE, "no plan to the destination was found")
+
+    def compose(self, problem: Problem, plan: Plan, reached: Int, released: Int) -> Composed:
+        """Return what a plan says to each robot.
+
+        Args:
+            problem: that the plan solves.
+            plan: of all robots.
+            reached: i8[n] leading segments that are over.
+            released: i8[n] leading segments that are released.
+
+        Raises:
+            DispatchError: outside robots cannot follow it, see `blockers_of`.
+        """
+        waypoints = waypoints_of(problem, plan, reached)
+        return waypoints, blockers_of(problem, plan, waypoints, reached, released)
+
+    def post(self, problem: Problem, composed: Composed) -> None:
+        """Send a plan to all robots that it concerns: those with destinations, and those that make way."""
+        waypoints, blockers = composed
+        self._sessions += 1
+        self.posted = {
+            robot: self._posted(robot, way)
+            for robot, way in enumerate(waypoints)
+            if robot in self.wishes or len(way.segments) > 1
+        }
+        self._released.clear()
+        self.unplanned.clear()
+        by_robot: dict[int, dict[int, dict[int, int]]] = {}
+        for (robot, waypoint), others in blockers.items():
+            by_robot.setdefault(robot, {})[waypoint] = others
+        now = stamp(self._messages)
+        for robot, posted in self.posted.items():
+            message = message_of(
+                self._messages, problem, posted, by_robot.get(robot, {}), self.posted, self._names, now
+            )
+            self.wire.publish(f"{self._names[robot]}/plan", message)
+
+    def release(self, released: Int32) -> None:
+        """Tell robots how far they may drive: `released` i4[n] leading segments."""
+        for robot, posted in self.posted.items():
+            waypoint = posted.waypoints.last(int(released[robot]))
+            if waypoint != self._released.get(robot):
+                self._released[robot] = waypoint
+                message = self._messages.new(f"{PACKAGE}/PlanRelease", waypoint_id=waypoint, plan_id=posted.plan_id)
+                self.wire.publish(f"{self._names[robot]}/plan/release", message)
+
+    def reached(self, before: Int32) -> Int:
+        """Return the leading segments i8[n] that are over by what robots report, at least those `before` i4[n]."""
+        found: Int = before.astype(np.int64)
+        for robot, posted in self.posted.items():
+            progress = self.participants.robots[robot].progress
+            if progress is not None and progress[0] == posted.key:
+                segments = posted.waypoints.segments
+                found[robot] = max(found[robot], int(segments[min(progress[1], len(segments) - 1)]))
+        return found
+
+    def _posted(self, robot: int, waypoints: Waypoints) -> Posted:
+        session = self.wishes[robot].session if self._goes(robot) else NOWHERE
+        key = robot.to_bytes(4) + session
+        version = self._versions[key] = self._versions.get(key, -1) + 1
+        uuid = self._messages.new("unique_identifier_msgs/UUID", uuid=list(session))
+        plan_id = self._messages.new(
+            f"{PACKAGE}/PlanId", destination_session=uuid, mapf_session=self._sessions, plan_version=version
+        )
+        return Posted(key=plan_key(plan_id), plan_id=plan_id, waypoints=waypoints)
+
+    def _refuse(self, robot: int, session: bytes, code: int, text: str) -> None:
+        error = self._messages.new(f"{PACKAGE}/Error", code=code, message=text)
+        uuid = self._messages.new("unique_identifier_msgs/UUID", uuid=list(session))
+        message = self._messages.new(f"{PACKAGE}/DestinationError", error=error, session=uuid)
+        self.wire.publish(f"{self._names[robot]}/destination/error", message)
+
+
+def _all_of(newest: dict[int, Any]) -> list[tuple[int, Any]]:
+    """Take out what has come."""
+    found = list(newest.items())
+    newest.clear()
+    return found

@@ -1,0 +1,84 @@
+"""Plans as messages: what blocks whom."""
+
+import attrs
+import numpy as np
+import pytest
+from mrpbench_live.rmf.traffic.posting import blockers_of, waypoints_of
+
+from mrpbench_core.api import DispatchError, Feature, Plan, Problem, Roadmap, RobotPath
+
+SQUARE = Roadmap(  # 0 - 1 - 2 - 3 on a line, and 4 above 1, 5 above 2
+    position=[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 0.0), (1.0, 1.0), (2.0, 1.0)],
+    level=[0] * 6,
+    heading=np.full(6, np.nan),
+    edges=[(0, 1), (1, 2), (2, 3), (4, 1), (1, 4), (5, 2), (2, 5), (1, 0), (4, 5)],
+    duration=[[1] * 9],
+    tick=1.0,
+)
+
+
+def path(*segments):
+    """Edges, or None for a wait, each for one tick."""
+    edge = [-1 if it is None else SQUARE.edges.tolist().index(list(it)) for it in segments]
+    return RobotPath(edge=edge, enter=np.arange(len(edge)), leave=np.arange(len(edge)) + 1)
+
+
+def problem(*starts, radius=0.3, features=frozenset()):
+    count = len(starts)
+    return Problem(
+        roadmap=SQUARE,
+        profile=[0] * count,
+        radius=[radius] * count,
+        start=list(starts),
+        ready=[0] * count,
+        goals=((),) * count,
+        features=features,
+    )
+
+
+FIRST, SECOND = path((0, 1), (1, 2), (2, 3)), path(None, None, (4, 1), (1, 0))
+NOTHING = np.zeros(2, np.int64)
+
+
+def test_waypoints_are_where_a_robot_is_and_the_ends_of_its_moves():
+    plan = Plan(paths=[FIRST, SECOND])
+    first, second = waypoints_of(problem(0, 4), plan, np.array([1, 0]))
+    assert (first.segments.tolist(), first.vertex.tolist()) == ([1, 2, 3], [1, 2, 3])
+    assert (second.segments.tolist(), second.vertex.tolist()) == ([0, 3, 4], [4, 1, 0])
+    assert [second.last(segments) for segments in range(5)] == [0, 0, 0, 1, 2]
+
+
+def test_who_comes_later_waits_until_the_other_is_out_of_the_way():
+    asked, plan = problem(0, 4), Plan(paths=[FIRST, SECOND])
+    found = blockers_of(asked, plan, waypoints_of(asked, plan, NOTHING), NOTHING, NOTHING)
+    assert found == {(1, 0): {0: 2}}  # at the vertex after that which they share
+
+
+def test_wide_robots_have_to_be_farther_away():
+    asked = problem(0, 4, radius=0.6)
+    plan = Plan(paths=[FIRST, SECOND])
+    found = blockers_of(asked, plan, waypoints_of(asked, plan, NOTHING), NOTHING, NOTHING)
+    assert found == {(1, 0): {0: 3}}  # 1 m from the shared vertex is less than 1.2 m
+
+
+def test_blockers_are_counted_from_where_a_plan_begins():
+    asked, plan = problem(0, 4), Plan(paths=[FIRST, SECOND])
+    reached = np.array([1, 0])
+    assert blockers_of(asked, plan, waypoints_of(asked, plan, reached), reached, reached) == {(1, 0): {0: 1}}
+
+
+def test_what_is_released_has_no_blockers():
+    asked, plan = problem(0, 4), Plan(paths=[FIRST, SECOND])
+    waypoints = waypoints_of(asked, plan, NOTHING)
+    assert blockers_of(asked, plan, waypoints, NOTHING, np.array([0, 3])) == {}
+
+
+def test_a_rotation_is_refused():
+    starts, moves = (1, 2, 5, 4), [(1, 2), (2, 5), None, (4, 1)]
+    back = attrs.evolve(SQUARE, edges=[*SQUARE.edges.tolist(), (5, 4)], duration=[[1] * 10])
+    asked = attrs.evolve(problem(*starts, features=frozenset({Feature.COMMITMENTS})), roadmap=back)
+    turning = RobotPath(edge=[9], enter=[0], leave=[1])
+    plan = Plan(paths=[turning if move is None else path(move) for move in moves])
+    nothing = np.zeros(4, np.int64)
+    with pytest.raises(DispatchError, match="robots 0, 1, 2, 3 rotate"):
+        blockers_of(asked, plan, waypoints_of(asked, plan, nothing), nothing, nothing)

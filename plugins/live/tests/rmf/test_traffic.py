@@ -1,0 +1,100 @@
+"""Where robots are to go, by the destinations that are posted for them."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+pytest.importorskip("cyclonedds", reason="mrpbench-live[rmf] is not installed")
+from mrpbench_live.rmf.messages import messages_of
+from mrpbench_live.rmf.traffic.traffic import Traffic
+
+from mrpbench_core.api import Roadmap
+
+P = "rmf_prototype_msgs/"
+ROADMAP = Roadmap(
+    position=[(float(i), 0.0) for i in range(6)],
+    level=[0] * 6,
+    heading=np.full(6, np.nan),
+    edges=[(i, i + 1) for i in range(5)],
+    duration=[[1] * 5],
+    tick=1.0,
+)
+
+
+class Silent:
+    """A wire that keeps what is sent."""
+
+    def __init__(self):
+        self.sent = []
+
+    def advertise(self, topic):
+        pass
+
+    def subscribe(self, topic, take):
+        pass
+
+    def publish(self, topic, message):
+        self.sent.append((topic, message))
+
+
+class Post:
+    """Three robots at 0, 2 and 4."""
+
+    def __init__(self):
+        self.messages, self.wire = messages_of(""), Silent()
+        self.traffic = Traffic(self.messages, self.wire, ("a", "b", "c"))
+        self.problem = SimpleNamespace(roadmap=ROADMAP, start=np.array([0, 2, 4]))
+
+    def send(self, robot, session, *points):
+        regions = [self.messages.new(P + "TargetRegion", region=self.messages.new(P + "Region", points=points))]
+        constraints = self.messages.new(P + "DestinationConstraints", regions=regions if points else [])
+        uuid = self.messages.new("unique_identifier_msgs/UUID", uuid=[session] * 16)
+        self.traffic.participants.destinations[robot] = self.messages.new(
+            P + "Destination", constraints=constraints, session=uuid
+        )
+        return [(event.kind, event.robot) for event in self.traffic.hear(0.0, self.problem)]
+
+    @property
+    def goals(self):
+        return [vertex for ((vertex,),) in self.traffic.goals([0, 2, 4])]
+
+    @property
+    def errors(self):
+        return [(topic, message.error.code) for topic, message in self.wire.sent]
+
+
+@pytest.fixture
+def post():
+    return Post()
+
+
+def test_robots_without_destinations_stay(post):
+    assert post.send(0, 1, 5.2, 0.1) == [("destination", 0)]
+    assert (post.goals, post.traffic.unplanned) == ([5, 2, 4], {0: "a has another destination"})
+    assert post.send(0, 1, 5.2, 0.1) == []  # the same session
+
+
+def test_what_is_no_place_is_answered_with_an_error(post):
+    assert post.send(1, 1) == [("destination_refused", 1)]
+    assert post.send(1, 2, 1.0) == [("destination_refused", 1)]
+    assert post.send(1, 3, 30.0, 0.0) == [("destination_refused", 1)]
+    assert post.errors == [("b/destination/error", 1005), ("b/destination/error", 1005), ("b/destination/error", 1001)]
+    assert (post.goals, post.traffic.unplanned) == ([0, 2, 4], {})
+
+
+def test_a_robot_waits_until_its_destination_is_free(post):
+    post.send(0, 1, 2.0, 0.0)  # where b stands
+    assert post.goals == [0, 2, 4]
+    assert post.goals == [0, 2, 4]
+    assert post.errors == [("a/destination/error", 1002)]  # once
+    post.send(1, 2, 0.0, 0.0)
+    assert post.goals == [2, 0, 4]
+
+
+def test_of_two_robots_with_one_destination_the_later_waits(post):
+    post.send(2, 1, 3.0, 0.0)
+    post.send(0, 2, 3.0, 0.0)
+    post.send(1, 3, 0.0, 0.0)  # where the first one waits
+    assert post.goals == [0, 2, 3]
+    assert sorted(post.errors) == [("a/destination/error", 1002), ("b/destination/error", 1002)]
