@@ -4,7 +4,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from typing import ClassVar
 
-from mrpbench_core.api import Component, Event
+from mrpbench_core.api import Component, Event, InputError
 from mrpbench_live.fleet.paths import FleetPaths, FleetState
 from mrpbench_live.fleet.site import Site
 from mrpbench_live.fleet.transports import Transport
@@ -27,9 +27,13 @@ class Connection(ABC):
             What the recording should say, with the time of `state`.
         """
 
-    @abstractmethod
-    def offer(self, transports: Sequence[Transport]) -> None:
-        """Tell the outside party of transports that it has to serve from now on."""
+    def offer(self, transports: Sequence[Transport]) -> None:  # noqa: ARG002
+        """Tell the outside party of transports that it has to serve from now on.
+
+        Raises:
+            InputError: the interface has no messages for transports, which is the default.
+        """
+        raise InputError("tasks.offered: the interface has no messages for transports", hint="use `interface: vda5050`")
 
     @abstractmethod
     def close(self) -> None:
