@@ -40,8 +40,14 @@ LEFT_OUT = {
     "dynabarn",
     "league",
     "movingai",
+    "charging",
+    "live",
+    "pogema",
+    "policy",
+    "rmf",
+    "vda5050",
 }
-"""Plugins that need files, programs or options that cannot be drawn."""
+"""Plugins that need files, programs, outside parties or options that cannot be drawn."""
 NEEDED: dict[str, dict[str, Any]] = {
     "random": {"robots": 3},
     "poisson": {"rate": 3},

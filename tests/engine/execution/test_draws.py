@@ -8,7 +8,7 @@ from mrpbench_core.builtin.dispatchers.adg import Adg
 from mrpbench_core.config.delays import Delays
 from mrpbench_core.config.faults import Faults
 from mrpbench_core.engine.execution import draws as module
-from mrpbench_core.engine.execution.draws import Draws
+from mrpbench_core.engine.execution.draws import DelayDraws
 from mrpbench_core.engine.execution.faults import FaultEvent, FaultState
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.schedule_loop import ScheduleLoop
@@ -26,7 +26,7 @@ def test_draws_are_those_of_their_numbers(context_of, monkeypatch, at_once, even
     robots = len(problem)
     monkeypatch.setattr(module, "_AT_ONCE", at_once * robots)
     schedule = Schedule(context_of(problem, plan), Adg(group_margin=0.0))
-    drawn = Draws(delays, robots, Seeds(5, 1), Adversary(problem, plan, 5.0))
+    drawn = DelayDraws(delays, robots, Seeds(5, 1), Adversary(problem, plan, 5.0))
     found = [np.concatenate(rows) for rows in zip(*drawn.execute(schedule, faults(events, robots), 999.0), strict=True)]
     for draw in range(1, 8):
         loop = ScheduleLoop(schedule, drawn.stream(draw), 999.0, faults=faults(events, robots))
