@@ -1,7 +1,6 @@
 """The simulator `rmf`: outside robots are the robots of a run."""
 
-import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import ClassVar
 
 import attrs
@@ -13,18 +12,14 @@ from mrpbench_core.api import (
     Fleet,
     Float,
     InputError,
-    Inputs,
     Int16,
-    ScanBatch,
     Simulation,
     Simulator,
-    State,
     World,
     option,
 )
-from mrpbench_live.fleet.overlaps import Overlaps
 from mrpbench_live.fleet.pace import Pace
-from mrpbench_live.fleet.tracking import Tracker
+from mrpbench_live.fleet.reported import OutsideRobots, ReportedFleet
 from mrpbench_live.rmf.messages import messages_of
 from mrpbench_live.rmf.traffic.shared import share
 from mrpbench_live.rmf.traffic.traffic import Traffic
@@ -77,50 +72,23 @@ class RmfRobots(Simulator):
             raise
         share(traffic)
         on = np.zeros(len(fleet), np.int16) if levels is None else levels
-        return _Reported(traffic, Pace(self.pace), fleet, placements, on, period)
+        return ReportedFleet(_Robots(traffic), Pace(self.pace), fleet, placements, on, period)
 
 
-class _Reported(Simulation):
-    """The robots as they report themselves."""
+class _Robots(OutsideRobots):
+    """The participants of the domain."""
 
-    def __init__(
-        self, traffic: Traffic, pace: Pace, fleet: Fleet, placements: Float, levels: Int16, period: float
-    ) -> None:
-        self._traffic, self._pace, self._period, self._steps = traffic, pace, period, 0
-        self._tracker = Tracker(fleet.robots, placements, period)
-        self._levels, self._overlaps, self._closed = levels, Overlaps(fleet.robots), False
-        self._state = State(
-            pose=placements.copy(), twist=np.zeros((len(fleet), 2)), level=levels, contacts=np.empty((0, 2), np.int32)
-        )
+    def __init__(self, traffic: Traffic) -> None:
+        self._traffic = traffic
 
-    @property
-    def state(self) -> State:
-        return self._state
+    def serve(self, due: float) -> None:
+        self._traffic.wire.serve(due)
 
-    def step(self, inputs: Inputs) -> State:
-        """Listen until the control period is over; the commands are for simulators."""
-        del inputs
-        self._steps += 1
-        now = self._steps * self._period
-        if self._steps == 1:
-            self._pace.due(0.0)
-        self._traffic.wire.serve(self._pace.due(now))
-        if change := self._pace.change(now):
-            sys.stderr.write(f"at {now:.1f} s: {change}\n")
+    def reports(self) -> Iterator[tuple[int, float, float, float, float]]:
         for robot, it in enumerate(self._traffic.participants.robots):
             if it.pose is not None:
-                self._tracker.report(robot, *it.pose, it.speed)
-        self._tracker.step()
-        pose = self._tracker.pose
-        contacts = self._overlaps.of(pose, self._levels)
-        self._state = State(pose=pose, twist=self._tracker.twist, level=self._levels, contacts=contacts)
-        return self._state
-
-    def scans(self) -> tuple[ScanBatch, ...]:
-        return ()
+                yield robot, *it.pose, it.speed
 
     def close(self) -> None:
-        if not self._closed:
-            self._closed = True
-            share(None)
-            self._traffic.wire.close()
+        share(None)
+        self._traffic.wire.close()

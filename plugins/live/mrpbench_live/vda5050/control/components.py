@@ -5,7 +5,7 @@ A run has a process of its own, so the two share one connection.
 
 import sys
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import ClassVar, Literal
 
 import attrs
@@ -20,7 +20,6 @@ from mrpbench_core.api import (
     FleetObservation,
     Float,
     InputError,
-    Inputs,
     Int16,
     Int32,
     Mode,
@@ -29,17 +28,14 @@ from mrpbench_core.api import (
     NavigatorSession,
     Orders,
     Route,
-    ScanBatch,
     Simulation,
     Simulator,
-    State,
     World,
     option,
 )
-from mrpbench_live.fleet.overlaps import Overlaps
 from mrpbench_live.fleet.pace import Pace
+from mrpbench_live.fleet.reported import OutsideRobots, ReportedFleet
 from mrpbench_live.fleet.site import level_names
-from mrpbench_live.fleet.tracking import Tracker
 from mrpbench_live.vda5050.control.fleet import ForeignFleet
 from mrpbench_live.vda5050.control.itinerary import Itinerary
 from mrpbench_live.vda5050.control.sender import OrderSender
@@ -100,62 +96,30 @@ class Vda5050Vehicles(Simulator):
         except BaseException:
             vehicles.close()
             raise
-        return _Reported(self, vehicles, fleet, placements, on, period)
+        return ReportedFleet(_Vehicles(vehicles, on), Pace(self.pace), fleet, placements, on, period)
 
 
-class _Reported(Simulation):
-    """The vehicles as they report themselves."""
+class _Vehicles(OutsideRobots):
+    """The vehicles on the broker."""
 
-    def __init__(
-        self,
-        recipe: Vda5050Vehicles,
-        vehicles: ForeignFleet,
-        fleet: Fleet,
-        placements: Float,
-        levels: Int16,
-        period: float,
-    ) -> None:
-        self._vehicles, self._period, self._steps = vehicles, period, 0
-        self._pace = Pace(recipe.pace)
-        self._tracker = Tracker(fleet.robots, placements, period)
-        self._levels = levels
-        self._overlaps = Overlaps(fleet.robots)
-        self._closed = False
-        self._state = State(
-            pose=placements.copy(), twist=np.zeros((len(fleet), 2)), level=levels, contacts=np.empty((0, 2), np.int32)
-        )
+    def __init__(self, vehicles: ForeignFleet, levels: Int16) -> None:
+        self._vehicles, self._levels = vehicles, levels
 
-    @property
-    def state(self) -> State:
-        return self._state
+    def serve(self, due: float) -> None:
+        self._vehicles.serve(due)
 
-    def step(self, inputs: Inputs) -> State:
-        """Listen until the control period is over; the commands are for simulators."""
-        del inputs
-        self._steps += 1
-        now = self._steps * self._period
-        if self._steps == 1:
-            self._pace.due(0.0)
-        self._vehicles.serve(self._pace.due(now))
-        if change := self._pace.change(now):
-            sys.stderr.write(f"at {now:.1f} s: {change}\n")
+    def reports(self) -> Iterator[tuple[int, float, float, float, float]]:
         for robot, vehicle in enumerate(self._vehicles.robots):
             place = vehicle.place
             if place is not None and place.level == self._levels[robot]:
-                self._tracker.report(robot, place.x, place.y, place.yaw, place.speed)
-        self._tracker.step()
-        pose, twist = self._tracker.pose, np.array([vehicle.twist for vehicle in self._vehicles.robots])
-        contacts = self._overlaps.of(pose, self._levels)
-        self._state = State(pose=pose, twist=twist.reshape(-1, 2), level=self._levels, contacts=contacts)
-        return self._state
+                yield robot, place.x, place.y, place.yaw, place.speed
 
-    def scans(self) -> tuple[ScanBatch, ...]:
-        return ()
+    def twist(self) -> Float:
+        return np.array([vehicle.twist for vehicle in self._vehicles.robots]).reshape(-1, 2)
 
     def close(self) -> None:
-        if not self._closed:
-            self._closed, _Run.vehicles = True, None
-            self._vehicles.close()
+        _Run.vehicles = None
+        self._vehicles.close()
 
 
 @attrs.frozen(kw_only=True)

@@ -1,0 +1,90 @@
+"""The simulation of runs whose robots are outside: what they report counts as the truth."""
+
+import sys
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+
+import numpy as np
+
+from mrpbench_core.api import Fleet, Float, Inputs, Int16, ScanBatch, Simulation, State
+from mrpbench_live.fleet.overlaps import Overlaps
+from mrpbench_live.fleet.pace import Pace
+from mrpbench_live.fleet.tracking import Tracker
+
+
+class OutsideRobots(ABC):
+    """Robots on a wire."""
+
+    @abstractmethod
+    def serve(self, due: float) -> None:
+        """Listen until a time of `time.monotonic`."""
+
+    @abstractmethod
+    def reports(self) -> Iterator[tuple[int, float, float, float, float]]:
+        """Yield the last report of each robot that has one: its index, x, y (metres), yaw (radians), speed (m/s)."""
+
+    def twist(self) -> Float | None:
+        """Return m/s forward and rad/s f8[n,2] as robots report them; None: as the recorded robots drive."""
+        return None
+
+    @abstractmethod
+    def close(self) -> None:
+        """Leave the wire."""
+
+
+class ReportedFleet(Simulation):
+    """Recorded robots that drive from report to report within the limits of their models.
+
+    Args:
+        outside: the robots.
+        pace: of the clock.
+        fleet: their models.
+        placements: f8[n,3] where they stand at the beginning.
+        levels: i2[n] on which they stay.
+        period: simulated seconds between control periods.
+    """
+
+    def __init__(
+        self, outside: OutsideRobots, pace: Pace, fleet: Fleet, placements: Float, levels: Int16, period: float
+    ) -> None:
+        self._outside, self._pace, self._period, self._steps = outside, pace, period, 0
+        self._tracker, self._overlaps = Tracker(fleet.robots, placements, period), Overlaps(fleet.robots)
+        self._levels, self._closed = levels, False
+        self._state = State(
+            pose=placements.copy(), twist=np.zeros((len(fleet), 2)), level=levels, contacts=np.empty((0, 2), np.int32)
+        )
+
+    @property
+    def state(self) -> State:
+        """The state after the last step."""
+        return self._state
+
+    def step(self, inputs: Inputs) -> State:
+        """Listen until the control period is over; the commands are for simulators."""
+        del inputs
+        self._steps += 1
+        now = self._steps * self._period
+        if self._steps == 1:
+            self._pace.due(0.0)
+        self._outside.serve(self._pace.due(now))
+        if change := self._pace.change(now):
+            sys.stderr.write(f"at {now:.1f} s: {change}\n")
+        for report in self._outside.reports():
+            self._tracker.report(*report)
+        self._tracker.step()
+        pose, twist = self._tracker.pose, self._outside.twist()
+        contacts = self._overlaps.of(pose, self._levels)
+        self._state = State(
+            pose=pose, twist=self._tracker.twist if twist is None else twist, level=self._levels, contacts=contacts
+        )
+        return self._state
+
+    def scans(self) -> tuple[ScanBatch, ...]:
+        """Return nothing: lidars are on the robots."""
+        return ()
+
+    def close(self) -> None:
+        """Leave the wire once."""
+        if not self._closed:
+            self._closed = True
+            self._outside.close()
