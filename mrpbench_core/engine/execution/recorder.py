@@ -31,33 +31,53 @@ SCANS = 4096
 """Scans per chunk: a thousand robots take that many in a second."""
 
 IRREGULAR: dict[str, tuple[str, tuple[int, ...]]] = {
-    **dict.fromkeys(("contact_time", "contact_force", "route_time", "route_speed", "event_time"), ("f8", ())),
-    **dict.fromkeys(("route_revision", "route_robot", "route_segment", "route_edge", "event_robot"), ("i4", ())),
-    **dict.fromkeys(("event_kind", "event_detail"), ("U1", ())),
+    "contact_time": ("f8", ()),
     "contact": ("i4", (2,)),
+    "contact_force": ("f8", ()),
+    "route_time": ("f8", ()),
+    "route_revision": ("i4", ()),
+    "route_robot": ("i4", ()),
+    "route_segment": ("i4", ()),
     "route_waypoint": ("f8", (3,)),
     "route_level": ("i2", ()),
+    "route_speed": ("f8", ()),
+    "route_edge": ("i4", ()),
     "route_leave": ("i8", ()),
+    "event_time": ("f8", ()),
+    "event_kind": ("U1", ()),
+    "event_robot": ("i4", ()),
+    "event_detail": ("U1", ()),
 }
 """Channels that may stay empty, which is not the same as missing."""
 
 
 TASKS: dict[str, tuple[str, tuple[int, ...]]] = {
-    **dict.fromkeys(("errand_time", "errand_service", "errand_deadline", "task_time"), ("f8", ())),
-    **dict.fromkeys(("errand_task", "errand_number", "errand_priority"), ("i4", ())),
-    **dict.fromkeys(("task_index", "task_robot", "task_errand"), ("i4", ())),
+    "errand_time": ("f8", ()),
+    "errand_task": ("i4", ()),
+    "errand_number": ("i4", ()),
     "errand_goal": ("f8", (3,)),
     "errand_level": ("i2", ()),
+    "errand_service": ("f8", ()),
+    "errand_deadline": ("f8", ()),
+    "errand_priority": ("i4", ()),
+    "task_time": ("f8", ()),
+    "task_index": ("i4", ()),
     "task_event": ("U1", ()),
+    "task_robot": ("i4", ()),
+    "task_errand": ("i4", ()),
 }
 """The same, where tasks come over time."""
 
 TRAJECTORY: dict[str, tuple[str, tuple[int, ...]]] = {
-    **dict.fromkeys(("trajectory_time", "trajectory_cost", "critic_time", "critic_score"), ("f8", ())),
-    **dict.fromkeys(("trajectory_robot", "critic_robot"), ("i4", ())),
+    "trajectory_time": ("f8", ()),
+    "trajectory_robot": ("i4", ()),
     "trajectory_chosen": ("u1", ()),
+    "trajectory_cost": ("f8", ()),
     "trajectory_pose": ("f4", (POSES, 3)),
+    "critic_time": ("f8", ()),
+    "critic_robot": ("i4", ()),
     "critic_name": ("U1", ()),
+    "critic_score": ("f8", ()),
 }
 """The same, where the trajectories of controllers are recorded."""
 
@@ -121,16 +141,21 @@ class Recorder:
         if not (last or self.is_due(step)):
             return
         rows, state, motion = self._rows, sample.state, sample.motion
-        every = {"time": sample.now, "truth": state.pose, "truth_twist": state.twist, "level": state.level}
-        every |= {"released": sample.orders.released, "reached": motion.reached, "cleared": motion.cleared}
-        for name, values in (every | {"mode": motion.mode, "waits_for": sample.waits_for}).items():
-            rows[name].append(values)
+        rows["time"].append(sample.now)
+        rows["truth"].append(state.pose)
+        rows["truth_twist"].append(state.twist)
+        rows["level"].append(state.level)
         if sample.estimate is not None and sample.odometry is not None:
             rows["estimate"].append(sample.estimate.pose)
             rows["odometry"].append(np.concatenate([sample.odometry.pose, sample.odometry.twist], axis=1))
             rows["command"].append(motion.twist)
+        rows["released"].append(sample.orders.released)
         if len(sample.orders.speed):
             rows["speed_limit"].append(sample.orders.speed)
+        rows["reached"].append(motion.reached)
+        rows["cleared"].append(motion.cleared)
+        rows["mode"].append(motion.mode)
+        rows["waits_for"].append(sample.waits_for)
         if sample.facility:
             rows["facility"].append(sample.facility)
         if sample.movers is not None:

@@ -2,14 +2,37 @@
 
 import sys
 from abc import ABC, abstractmethod
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from mrpbench_core.api import Fleet, Float, Inputs, Int16, ScanBatch, Simulation, State
+from mrpbench_core.api import (
+    Facilities,
+    Fleet,
+    Float,
+    InputError,
+    Inputs,
+    Int16,
+    ScanBatch,
+    Simulation,
+    State,
+    World,
+)
 from mrpbench_live.fleet.overlaps import Overlaps
 from mrpbench_live.fleet.pace import Pace
 from mrpbench_live.fleet.tracking import Tracker
+
+
+def refuse_surroundings(simulator: str, world: World, movers: Sequence[float]) -> None:
+    """Refuse what outside robots do not know of: doors, lifts and crowds.
+
+    Raises:
+        InputError: the run has some.
+    """
+    if Facilities(world).names:
+        raise InputError(f"simulator: `{simulator}` has no doors and no lifts, and the world has")
+    if movers:
+        raise InputError(f"simulator: `{simulator}` has no crowds: leave out `crowds`")
 
 
 class OutsideRobots(ABC):

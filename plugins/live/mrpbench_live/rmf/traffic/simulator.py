@@ -8,10 +8,8 @@ import numpy as np
 from attrs.validators import ge, gt
 
 from mrpbench_core.api import (
-    Facilities,
     Fleet,
     Float,
-    InputError,
     Int16,
     Simulation,
     Simulator,
@@ -19,7 +17,7 @@ from mrpbench_core.api import (
     option,
 )
 from mrpbench_live.fleet.pace import Pace
-from mrpbench_live.fleet.reported import OutsideRobots, ReportedFleet
+from mrpbench_live.fleet.reported import OutsideRobots, ReportedFleet, refuse_surroundings
 from mrpbench_live.rmf.messages import messages_of
 from mrpbench_live.rmf.traffic.shared import share
 from mrpbench_live.rmf.traffic.traffic import Traffic
@@ -57,10 +55,7 @@ class RmfRobots(Simulator):
             InputError: a robot is missing or elsewhere; or the world has doors, lifts or movers.
         """
         del seed
-        if Facilities(world).names:
-            raise InputError("simulator: `rmf` has no doors and no lifts, and the world has")
-        if movers:
-            raise InputError("simulator: `rmf` has no crowds: leave out `crowds`")
+        refuse_surroundings("rmf", world, movers)
         messages = messages_of(self.messages)
         wire = Wire(messages, self.domain)
         traffic = Traffic(messages, wire, fleet.names)

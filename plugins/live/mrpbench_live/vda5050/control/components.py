@@ -15,7 +15,6 @@ from attrs.validators import ge, gt
 from mrpbench_core.api import (
     Controller,
     Event,
-    Facilities,
     Fleet,
     FleetObservation,
     Float,
@@ -34,7 +33,7 @@ from mrpbench_core.api import (
     option,
 )
 from mrpbench_live.fleet.pace import Pace
-from mrpbench_live.fleet.reported import OutsideRobots, ReportedFleet
+from mrpbench_live.fleet.reported import OutsideRobots, ReportedFleet, refuse_surroundings
 from mrpbench_live.fleet.site import level_names
 from mrpbench_live.vda5050.control.fleet import ForeignFleet
 from mrpbench_live.vda5050.control.itinerary import Itinerary
@@ -83,10 +82,7 @@ class Vda5050Vehicles(Simulator):
             InputError: there is no broker, or a vehicle is missing; or the world has doors, lifts or movers.
         """
         del seed
-        if Facilities(world).names:
-            raise InputError("simulator: `vda5050` has no doors and no lifts, and the world has")
-        if movers:
-            raise InputError("simulator: `vda5050` has no crowds: leave out `crowds`")
+        refuse_surroundings("vda5050", world, movers)
         vehicles = ForeignFleet(self.url, self.version, self.topics, level_names(world))
         _Run.vehicles, _Run.horizon = vehicles, self.horizon
         on = np.zeros(len(fleet), np.int16) if levels is None else levels
