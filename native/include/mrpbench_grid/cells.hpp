@@ -26,8 +26,8 @@ class Cells {
 
   /// Writes where robots at `place` are after a step in which they want to be at `wish`, by the rule `soft` of POGEMA
   /// (Skrynnik et al., ICLR 2025): robots that want to change places stay; of several that want one cell the first gets
-  /// it; whoever would come to a wall or to the cell of a robot that stays, stays as well. Robots that are not active
-  /// stay and are in nobody's way. Returns how many active robots are not where they want to be.
+  /// it; a robot that would come to a wall or to the cell of a robot that stays, stays as well. Robots that are not
+  /// active stay and block no others. Returns how many active robots are not where they want to be.
   std::size_t soft(std::span<const bool> active, std::span<const Place> place, std::span<const Place> wish,
                    std::span<Place> to);
 
