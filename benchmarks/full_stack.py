@@ -74,7 +74,7 @@ class Case:
                 "shelf_rows": 2 * side,
                 "shelf_columns": side,
                 "shelf_length": 5,
-                "cell_size": 0.4,
+                "resolution": 0.4,
             },
             "roadmap": "grid",
             "scenario": {"plugin": "random", "robots": self.robots},

@@ -49,7 +49,7 @@ def config(options: argparse.Namespace) -> dict[str, Any]:
     """One run."""
     return {
         "name": "lifelong",
-        "world": {"plugin": "movingai", "file": str(options.map.resolve()), "cell_size": 0.5},
+        "world": {"plugin": "movingai", "file": str(options.map.resolve()), "resolution": 0.5},
         "roadmap": "grid",
         "scenario": {"plugin": "random", "robots": options.robots},
         "fleet": {"robot": "turtlebot3_burger", "lidar": "none"},

@@ -35,7 +35,7 @@ def durations(repeats: int, simulator: str, folder: Path) -> list[float]:
     write_corridor(folder)
     study = {
         "name": "replicability",
-        "world": {"plugin": "movingai", "file": str(folder / "corridor.map"), "cell_size": 0.35},
+        "world": {"plugin": "movingai", "file": str(folder / "corridor.map"), "resolution": 0.35},
         "roadmap": {"plugin": "grid"},
         "scenario": {"plugin": "movingai", "file": str(folder / "corridor.scen"), "robots": 1},
         "fleet": "turtlebot3_burger",

@@ -24,7 +24,7 @@ FIRST: dict[str, Any] = {
     "metrics": [],
     "limits": {"execution": 25.0},
 }
-WAREHOUSE = {"plugin": "generated_warehouse", "shelf_rows": 8, "shelf_columns": 4, "shelf_length": 5, "cell_size": 0.4}
+WAREHOUSE = {"plugin": "generated_warehouse", "shelf_rows": 8, "shelf_columns": 4, "shelf_length": 5, "resolution": 0.4}
 CROWDED = {"world": WAREHOUSE, "roadmap": "grid", "scenario": {"plugin": "random", "robots": 30}}
 STOP = {"plugin": "waypoints", "waypoints": "stop"}
 TASKS = {"plugin": "poisson", "rate": 0.2}

@@ -99,7 +99,7 @@ def bags(storage: Literal["mcap", "sqlite3"]) -> list[bytes]:
         folder = Path(name)
         (folder / "run.zip").write_bytes(example()[1])
         kept = Recording(folder / "run.zip")
-        session = Rosbag2(storage=storage, map_cell_size=1.0).open(kept.first_context(), folder / "bag")
+        session = Rosbag2(storage=storage, map_resolution=1.0).open(kept.first_context(), folder / "bag")
         for chunk in kept.chunks():
             session.write(chunk)
         session.close()

@@ -18,6 +18,7 @@ def option(
     unit: str | None = None,
     validator: Callable[..., Any] | None = None,
     infinite: bool = False,
+    former: str | None = None,
 ) -> Any:
     """Declare one option of a component.
 
@@ -29,11 +30,12 @@ def option(
         validator: an attrs validator, e.g. `attrs.validators.ge(1)`.
         infinite: numbers may be infinite. Otherwise they are finite, with magnitudes up to
             `mrpbench_core.model.common.units.LARGEST`.
+        former: its name in the last release; configurations may still use it, with a line of advice.
 
     A field of type `pathlib.Path` names a file, relative to the folder of the configuration; its content identifies it.
     A field whose type is a component class (or a tuple of one) is chosen by plugin name, recursively.
     """
-    metadata = {"help": help, "unit": unit}
+    metadata = {"help": help, "unit": unit, "former": former}
     return attrs.field(default=default, validator=bounded(unit, validator, infinite=infinite), metadata=metadata)
 
 

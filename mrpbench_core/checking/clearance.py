@@ -60,7 +60,7 @@ def _touches(outline: Float, start: Float, end: Float, radius: float) -> Bool:
 
 def _clear_of_cells(occupancy: Occupancy, start: Float, end: Float, radius: float) -> Bool:
     """bool[k] for blocked cells; long moves are cut into pieces so that their bounding boxes stay small."""
-    size = occupancy.cell_size
+    size = occupancy.resolution
     pieces = np.maximum(1, np.ceil(np.hypot(*(end - start).T) / (4 * size))).astype(np.int64)
     sweep = np.repeat(np.arange(len(start)), pieces)
     part = np.arange(len(sweep)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
@@ -77,13 +77,13 @@ def _pieces_touch(occupancy: Occupancy, start: Float, end: Float, radius: float)
         return touching
     first = occupancy.cells(np.minimum(start, end) - radius)
     span = occupancy.cells(np.maximum(start, end) + radius) - first
-    square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]) * occupancy.cell_size
+    square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]) * occupancy.resolution
     for row in range(int(span[:, 0].max()) + 1):
         for column in range(int(span[:, 1].max()) + 1):
             cell = first + (row, column)
             there = (span >= (row, column)).all(axis=1) & ~touching & _blocked(occupancy, cell)
             chosen = np.flatnonzero(there)
-            corner = cell[chosen][:, ::-1] * occupancy.cell_size + np.asarray(occupancy.origin)
+            corner = cell[chosen][:, ::-1] * occupancy.resolution + np.asarray(occupancy.origin)
             touching[chosen] = _touches(corner[:, None] + square, start[chosen], end[chosen], radius)
     return touching
 

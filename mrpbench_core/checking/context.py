@@ -140,7 +140,7 @@ def _level(level: Level) -> Iterator[str]:
         *(each.polygon for each in level.floors + level.holes),
     ]:
         yield from _polygon("an area", polygon)
-    if level.occupancy is not None and (level.occupancy.blocked.ndim != 2 or not level.occupancy.cell_size > 0):
+    if level.occupancy is not None and (level.occupancy.blocked.ndim != 2 or not level.occupancy.resolution > 0):
         yield "occupancy is not a raster"
 
 

@@ -21,7 +21,7 @@ HAIR = 1e-9
 
 def rasterise(
     level: Level,
-    cell_size: float,
+    resolution: float,
     rule: Literal["centre", "touched"] = "centre",
     origin: tuple[float, float] | None = None,
     shape: tuple[int, int] | None = None,
@@ -30,7 +30,7 @@ def rasterise(
 
     Args:
         level: the level.
-        cell_size: metres.
+        resolution: metres.
         rule: `centre`: a cell is blocked if its centre lies in something solid, as a vertical ray finds it; `touched`:
             a cell is blocked if anything solid reaches into it.
         origin: lower left corner of the raster; by default that of everything solid.
@@ -41,16 +41,22 @@ def rasterise(
     """
     occupancy = level.occupancy
     outlines = solids(level)
-    if occupancy is not None and not outlines and cell_size == occupancy.cell_size and origin is None and shape is None:
+    if (
+        occupancy is not None
+        and not outlines
+        and resolution == occupancy.resolution
+        and origin is None
+        and shape is None
+    ):
         return occupancy
     low, high = bounds(level)
     origin = (float(low[0]), float(low[1])) if origin is None else origin
     if shape is None:
-        across, up = ((high - origin) / cell_size - HAIR).tolist()
+        across, up = ((high - origin) / resolution - HAIR).tolist()
         shape = (max(1, math.ceil(up)), max(1, math.ceil(across)))
     if shape[0] * shape[1] > LIMIT:
         raise InputError(f"a raster of {shape[0]} × {shape[1]} cells is too large", hint="choose larger cells")
-    blank = Occupancy(blocked=np.zeros(shape, bool), cell_size=cell_size, origin=origin)
+    blank = Occupancy(blocked=np.zeros(shape, bool), resolution=resolution, origin=origin)
     blocked = blank.blocked.copy() if occupancy is None else _resampled(occupancy, blank, rule)
     for outline in outlines:
         first, last = _reach(blank, outline)
@@ -61,7 +67,7 @@ def rasterise(
         centres = blank.centres(cells)
         solid = inside(outline, centres)
         if rule == "touched":
-            solid |= _crosses(outline, centres, cell_size / 2 * (1 - HAIR))
+            solid |= _crosses(outline, centres, resolution / 2 * (1 - HAIR))
         blocked[first[0] : last[0], first[1] : last[1]] |= solid.reshape(len(rows), len(columns))
     return attrs.evolve(blank, blocked=blocked)
 
@@ -108,8 +114,8 @@ def _resampled(source: Occupancy, raster: Occupancy, rule: str) -> Bool:
     total[1:, 1:] = solid.cumsum(axis=0).cumsum(axis=1)
     spans = []
     for axis, cells in ((1, raster.shape[0]), (0, raster.shape[1])):
-        low = (raster.origin[axis] - source.origin[axis] + np.arange(cells) * raster.cell_size) / source.cell_size
-        width = raster.cell_size / source.cell_size
+        low = (raster.origin[axis] - source.origin[axis] + np.arange(cells) * raster.resolution) / source.resolution
+        width = raster.resolution / source.resolution
         if rule == "centre":
             first = np.floor(low + width / 2)
             last = first + 1

@@ -218,6 +218,7 @@ class Structure:
     ) -> Any:
         """An instance of `cls` with its fields from `item`; those in `added` where it has none."""
         fields = {field.alias: field for field in attrs.fields(cls) if field.init}
+        item = _with_present_names(item, fields, key)
         errors: list[InputError] = []
         values: dict[str, Any] = {}
         for name, inner in item.value.items():
@@ -307,6 +308,15 @@ def structure_component(base: type[C], item: Item, key: str, folder: Path) -> C:
     if advice := advice_of(type(component)):
         LOG.warning(advice)
     return component
+
+
+def _with_present_names(item: Item, fields: Mapping[str, Any], key: str) -> Item:
+    """Return a block in which each option that has its former name has its present one; log a line of advice."""
+    former = {field.metadata.get("former"): name for name, field in fields.items()}
+    present = {old: former[old] for old in item.value if old in former and former[old] not in item.value}
+    for old, new in present.items():
+        LOG.warning(item.value[old].key.error(_join(key, old), f"is called `{new}` now"))
+    return attrs.evolve(item, value={present.get(name, name): inner for name, inner in item.value.items()})
 
 
 def _of_plugin(item: Item, key: str) -> Any:

@@ -9,6 +9,7 @@ from typing import Any, TypeVar, cast, get_origin
 import attrs
 import cattrs
 import numpy as np
+from cattrs.gen import make_dict_structure_fn, override
 from numpy.typing import NDArray
 
 Kept = TypeVar("Kept")
@@ -18,7 +19,8 @@ _FETCH: ContextVar[Callable[[str], NDArray[Any]]] = ContextVar("fetch")
 def encode(value: Any, keep: Callable[[NDArray[Any]], str]) -> Any:
     """Return an attrs object as JSON data; `keep` stores an array and returns its name.
 
-    Fields with the metadata `recorded: False` are left out; they need a default.
+    Fields with the metadata `recorded: False` are left out; they need a default. The metadata `recorded_as` names a
+    field in the data, where it has another name.
     """
     if isinstance(value, np.ndarray):
         return {"array": keep(value)}
@@ -30,7 +32,7 @@ def encode(value: Any, keep: Callable[[NDArray[Any]], str]) -> Any:
         return [encode(item, keep) for item in value]
     if attrs.has(type(value)):
         recorded = (field for field in attrs.fields(type(value)) if field.metadata.get("recorded", True))
-        return {field.name: encode(getattr(value, field.name), keep) for field in recorded}
+        return {_name(field): encode(getattr(value, field.name), keep) for field in recorded}
     if isinstance(value, dict):
         return {str(key): encode(item, keep) for key, item in value.items()}
     if isinstance(value, frozenset):
@@ -57,6 +59,10 @@ def decode(data: Any, kind: type[Kept], fetch: Callable[[str], NDArray[Any]]) ->
 def _converter() -> cattrs.Converter:
     """The only converter, because it takes longer to prepare than to use."""
     converter = cattrs.Converter()
+    converter.register_structure_hook_factory(
+        lambda wanted: attrs.has(wanted) and any(_name(field) != field.name for field in attrs.fields(wanted)),
+        lambda wanted: make_dict_structure_fn(wanted, converter, **_renamed(wanted)),
+    )
     converter.register_structure_hook_func(
         lambda wanted: cast(Any, get_origin(wanted)) is np.ndarray,
         lambda entry, _: _FETCH.get()(entry["array"]),
@@ -65,6 +71,15 @@ def _converter() -> cattrs.Converter:
     # The hooks of cattrs for these would convert whatever is there.
     converter.register_structure_hook_func(lambda wanted: wanted in (bool, int, str), _plain)
     return converter
+
+
+def _renamed(kind: type[Any]) -> dict[str, Any]:
+    return {field.name: override(rename=_name(field)) for field in attrs.fields(kind)}
+
+
+def _name(field: "attrs.Attribute[Any]") -> str:
+    """The name of a field in the data."""
+    return str(field.metadata.get("recorded_as", field.name))
 
 
 def _plain(value: Any, kind: Any) -> Any:

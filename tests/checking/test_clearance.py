@@ -75,7 +75,7 @@ def test_a_point_cannot_pass_through_a_wall():
     st.sampled_from([0.05, 0.15]),
 )
 def test_blocked_cells_are_solid_squares(cells, p, q, radius):
-    occupancy = Occupancy(blocked=np.array(cells).reshape(4, 5), cell_size=0.5)
+    occupancy = Occupancy(blocked=np.array(cells).reshape(4, 5), resolution=0.5)
     squares = [((column + 0.5) * 0.5, (row + 0.5) * 0.5) for row, column in np.argwhere(occupancy.blocked)]
     shares = np.linspace(0, 1, 300)[:, None]
     path = np.array(p) + shares * (np.array(q) - np.array(p))
@@ -86,6 +86,6 @@ def test_blocked_cells_are_solid_squares(cells, p, q, radius):
 
 
 def test_beyond_a_raster_is_solid():
-    level = Level(name="", occupancy=Occupancy(blocked=np.zeros((2, 2), bool), cell_size=1.0))
+    level = Level(name="", occupancy=Occupancy(blocked=np.zeros((2, 2), bool), resolution=1.0))
     points = np.array([[1.0, 1.0], [0.2, 1.0], [5.0, 5.0]])
     assert has_clearance(level, points, points, 0.3).tolist() == [True, False, False]

@@ -71,7 +71,7 @@ def test_the_frame_of_the_raster_can_be_given():
 
 
 def test_the_raster_of_a_level_stays_unchanged():
-    own = Occupancy(blocked=np.eye(4, dtype=bool), cell_size=0.5, origin=(1, 2))
+    own = Occupancy(blocked=np.eye(4, dtype=bool), resolution=0.5, origin=(1, 2))
     level = Level(name="", occupancy=own)
     assert rasterise(level, 0.5) is own
     fine = rasterise(level, 0.25)

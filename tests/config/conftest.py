@@ -66,7 +66,7 @@ class Ecbs(Planner):
     weights: tuple[float, ...] = option((1.0, 2.0), help="weights")
     pair: tuple[int, str] = option((1, "a"), help="a pair")
     tags: frozenset[str] = option(frozenset(), help="tags")
-    level: str | None = option(None, help="level")
+    level: str | None = option(None, help="level", former="floor")
     flag: bool = option(False, help="flag")
     either: float | Literal["auto"] = option("auto", help="a number or auto")
 

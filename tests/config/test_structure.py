@@ -211,6 +211,14 @@ def test_a_plan_filter_may_be_written_as_the_plugin_that_it_was(study, errors, c
     assert line.endswith("plan_filter: './mine.py:Mine' is not one of none, mrp_bench_stairs")
 
 
+def test_an_option_may_have_its_former_name(study, errors, caplog):
+    assert ecbs(study, "floor: L2").level == "L2"
+    (note,) = caplog.messages
+    assert note.endswith("planner.floor: is called `level` now")
+    (line,) = errors(f"{SMALL}planner: {{plugin: ecbs, floor: L2, level: L1}}\n")
+    assert "planner.floor: unknown option of 'ecbs'" in line
+
+
 def test_a_metric_is_not_called_like_a_part_of_records(errors, tmp_path):
     (tmp_path / "mine.py").write_text(
         "import attrs\nfrom mrpbench_core.api import Column, Metric\n"

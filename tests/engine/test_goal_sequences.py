@@ -18,7 +18,7 @@ from mrpbench_core.store.recording import Recording
 prioritized = pytest.importorskip("mrpbench_planners_mapf.prioritized")
 BATCH = """\
 name: batch
-world: {plugin: movingai, file: room.map, cell_size: 1.0}
+world: {plugin: movingai, file: room.map, resolution: 1.0}
 roadmap: grid
 scenario: {plugin: file, file: tasks.yaml}
 fleet: {robot: turtlebot3_burger, lidar: none}

@@ -5,6 +5,7 @@ import json
 import attrs
 
 from mrpbench_core.files.codec import decode, encode
+from mrpbench_core.model.worlds.occupancy import Occupancy
 from mrpbench_core.model.worlds.world import Area, Door, Lane, Level, Lift, Obstacle, Vertex, World
 
 
@@ -36,3 +37,10 @@ def test_a_world_with_everything_comes_back_equal():
 
     data = json.loads(json.dumps(encode(world, keep)))
     assert decode(data, World, arrays.__getitem__) == world
+
+
+def test_the_resolution_of_a_raster_has_its_first_name_in_recordings():
+    raster = Occupancy(blocked=[[True, False]], resolution=0.5)
+    data = encode(raster, lambda _: "blocked")
+    assert data == {"blocked": {"array": "blocked"}, "cell_size": 0.5, "origin": [0.0, 0.0]}
+    assert decode(data, Occupancy, lambda _: raster.blocked) == raster

@@ -56,7 +56,7 @@ def results(tmp_path_factory):
         def do(name, **settings):
             cell = 1.0 if settings.get("simulator") == "none" else 0.5
             robots = settings.pop("robots", 3)
-            world = {"plugin": "movingai", "file": "small.map", "cell_size": cell}
+            world = {"plugin": "movingai", "file": "small.map", "resolution": cell}
             scenario = {"plugin": "random", "robots": robots}
             study = read_study({**STUDY, "world": world, "scenario": scenario, **settings})
             assert not study.errors

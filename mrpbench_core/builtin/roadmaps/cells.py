@@ -54,7 +54,7 @@ def empty_raster(low: Float, high: Float, cell_size: float) -> Occupancy:
     if rows * columns > LIMIT:
         raise InputError(f"cell_size {cell_size:g} m makes {rows} × {columns} cells", hint="choose a larger cell_size")
     origin = (float(low[0]), float(low[1]))
-    return Occupancy(blocked=np.ones((rows, columns), bool), cell_size=cell_size, origin=origin)
+    return Occupancy(blocked=np.ones((rows, columns), bool), resolution=cell_size, origin=origin)
 
 
 def connect(raster: Occupancy) -> Cells:
@@ -160,12 +160,12 @@ def cell_roadmap(
         )
     count = len(cells.cell)
     raster = cells.raster
-    tick = raster.cell_size / min(robot.max_speed for robot in profiles)
+    tick = raster.resolution / min(robot.max_speed for robot in profiles)
     duration = np.ones((len(profiles), len(edges)), np.int64)
     if timing.is_kinodynamic:
         tick = dividing_tick(tick)
         speed = np.array([robot.max_speed for robot in profiles])
-        duration *= driving_ticks(np.array(raster.cell_size), speed, tick)[:, None]
+        duration *= driving_ticks(np.array(raster.resolution), speed, tick)[:, None]
     roadmap = Roadmap(
         position=cells.centre,
         level=np.zeros(count, np.int16),
@@ -174,7 +174,7 @@ def cell_roadmap(
         duration=duration.astype(np.int32),
         tick=tick,
         grid=Raster(
-            shape=raster.shape, cell_size=raster.cell_size, origin=raster.origin, cell=cells.cell.astype(np.int32)
+            shape=raster.shape, cell_size=raster.resolution, origin=raster.origin, cell=cells.cell.astype(np.int32)
         ),
         place=place.astype(np.int32),
         notes=tuple(notes),

@@ -46,9 +46,9 @@ class GridRoadmap(TimedRoadmap):
         level = one_level(world).levels[0]
         radius = float(fleet.radii.max())
         occupancy = level.occupancy
-        if occupancy is not None and (self.cell_size or _default(occupancy, radius)) == occupancy.cell_size:
+        if occupancy is not None and (self.cell_size or _default(occupancy, radius)) == occupancy.resolution:
             cells = connect(occupancy)
-            if 2 * radius <= occupancy.cell_size and not solids(
+            if 2 * radius <= occupancy.resolution and not solids(
                 level
             ):  # moving between neighbours never leaves the two cells
                 return cell_roadmap(self, cells, places(cells, world), world, fleet, [])
@@ -61,7 +61,7 @@ class GridRoadmap(TimedRoadmap):
 
 def _default(occupancy: Occupancy, radius: float) -> float:
     """Return the default cell size. A map made by lidar has cells smaller than robots, too many to plan on."""
-    return occupancy.cell_size if 2 * radius <= occupancy.cell_size else max(occupancy.cell_size, DEFAULT_CELL_SIZE)
+    return occupancy.resolution if 2 * radius <= occupancy.resolution else max(occupancy.resolution, DEFAULT_CELL_SIZE)
 
 
 def _open_raster(world: World, cell_size: float) -> Occupancy:

@@ -84,7 +84,7 @@ def _roads(world: World, size: float) -> Occupancy:
 
 
 def _open_road(blocked: Bool, raster: Occupancy, a: Float, b: Float) -> None:
-    size = raster.cell_size
+    size = raster.resolution
     start, end = (a, b) if tuple(a) <= tuple(b) else (b, a)  # one side for both directions
     length = float(np.hypot(*(end - start)))
     ahead = (end - start) / length if length > 0 else np.array([1.0, 0.0])

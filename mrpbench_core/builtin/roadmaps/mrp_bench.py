@@ -34,7 +34,7 @@ def mrp_bench_raster(world: World, cell_size: float) -> Occupancy:
         _walk(kind, start, end)
     _widen(kind)
     _widen_borders(kind)
-    return Occupancy(blocked=kind == _BLOCKED, cell_size=cell_size, origin=raster.origin)
+    return Occupancy(blocked=kind == _BLOCKED, resolution=cell_size, origin=raster.origin)
 
 
 def _walk(kind: _Kinds, start: tuple[int, int], end: tuple[int, int]) -> None:

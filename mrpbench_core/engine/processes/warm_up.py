@@ -43,7 +43,7 @@ class TwoCells(WorldSource):
     def load(self) -> World:
         """Return them."""
         return World(
-            name="cells", levels=(Level(name="L1", occupancy=Occupancy(blocked=np.zeros((1, 2), bool), cell_size=1)),)
+            name="cells", levels=(Level(name="L1", occupancy=Occupancy(blocked=np.zeros((1, 2), bool), resolution=1)),)
         )
 
 

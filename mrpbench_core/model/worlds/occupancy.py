@@ -18,8 +18,8 @@ class Occupancy:
 
     blocked: Bool = array("?")
     """bool[rows, columns]."""
-    cell_size: float
-    """metres."""
+    resolution: float = attrs.field(metadata={"recorded_as": "cell_size"})
+    """Side of a cell, metres (`map_server`'s word)."""
     origin: tuple[float, float] = (0.0, 0.0)
     """x, y of the lower left corner of cell (0, 0), metres."""
 
@@ -31,10 +31,10 @@ class Occupancy:
 
     def cells(self, points: Float) -> Int:
         """Row and column i8[n,2] of the cells that hold `points` f8[n,2]; may lie outside the raster."""
-        offset = (np.atleast_2d(points) - self.origin) / self.cell_size
+        offset = (np.atleast_2d(points) - self.origin) / self.resolution
         return np.floor(offset[:, ::-1]).astype(np.int64)
 
     def centres(self, cells: Int) -> Float:
         """Centres f8[n,2] (x, y) of `cells` i8[n,2] (row, column)."""
-        centres: Float = (np.atleast_2d(cells)[:, ::-1] + 0.5) * self.cell_size + np.asarray(self.origin)
+        centres: Float = (np.atleast_2d(cells)[:, ::-1] + 0.5) * self.resolution + np.asarray(self.origin)
         return centres

@@ -55,7 +55,7 @@ def raster_outline(occupancy: Occupancy) -> Float:
             ends = [first, line, last, line] if forward else [last, line, first, line]
             parts.append(np.stack([ends[1], ends[0], ends[3], ends[2]] if across else ends, axis=1))
     cells = np.concatenate(parts).astype(float)
-    outline: Float = cells * occupancy.cell_size + np.tile(occupancy.origin, 2)
+    outline: Float = cells * occupancy.resolution + np.tile(occupancy.origin, 2)
     return outline
 
 

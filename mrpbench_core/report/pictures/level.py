@@ -38,7 +38,7 @@ def plot_solids(axes: Any, level: Level) -> None:
     from matplotlib.colors import ListedColormap
 
     if level.occupancy is not None:
-        (rows, columns), size, (x, y) = level.occupancy.shape, level.occupancy.cell_size, level.occupancy.origin
+        (rows, columns), size, (x, y) = level.occupancy.shape, level.occupancy.resolution, level.occupancy.origin
         axes.imshow(
             np.ma.masked_equal(level.occupancy.blocked, 0),
             cmap=ListedColormap([WALL]),

@@ -69,7 +69,7 @@ def _svg(
     ]
     things = [f"M{'L'.join(points(np.asarray(entry.polygon, float)))}z" for entry in floor.obstacles]
     if (cells := floor.occupancy) is not None:
-        blocked, size = _merged(np.asarray(cells.blocked, bool), cells.cell_size)
+        blocked, size = _merged(np.asarray(cells.blocked, bool), cells.resolution)
         solid += [f"M{'L'.join(points(np.asarray(cells.origin) + size * corner))}z" for corner in _bars(blocked)]
     parts = [f'<path class="thing" d="{"".join(things)}"/><path class="wall" d="{"".join(solid)}"/>']
     if movers is not None:

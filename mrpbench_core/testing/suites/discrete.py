@@ -45,7 +45,7 @@ class DiscreteSimulatorConformance(ComponentConformance):
         """An execution on a raster of 8 × 8 cells with two walls."""
         blocked = np.zeros((SIDE, SIDE), bool)
         blocked[2:4, 2] = blocked[4:6, 5] = True
-        world = World(name="cells", levels=(Level(name="L1", occupancy=Occupancy(blocked=blocked, cell_size=1.0)),))
+        world = World(name="cells", levels=(Level(name="L1", occupancy=Occupancy(blocked=blocked, resolution=1.0)),))
         robots = fleet(ROBOTS)
         roadmap = GridRoadmap().build(world, robots)
         start = np.column_stack([np.arange(ROBOTS) + 0.5, np.full(ROBOTS, 0.5), np.full(ROBOTS, np.nan)])

@@ -47,8 +47,8 @@ def _solid(level: Level, place: Float) -> Bool:
     """Tell which places f8[k,2] are in solid cells; nothing is known, and so nothing solid, outside the raster."""
     low, high = bounds(level)
     occupancy = level.occupancy
-    raster = rasterise(level, max(occupancy.cell_size if occupancy else CELL, float((high - low).max()) / MOST_CELLS))
-    cell = np.floor((place - raster.origin) / raster.cell_size).astype(int)[:, ::-1]
+    raster = rasterise(level, max(occupancy.resolution if occupancy else CELL, float((high - low).max()) / MOST_CELLS))
+    cell = np.floor((place - raster.origin) / raster.resolution).astype(int)[:, ::-1]
     within = ((cell >= 0) & (cell < raster.shape)).all(axis=-1)
     solid = np.zeros(len(place), bool)
     solid[within] = raster.blocked[cell[within, 0], cell[within, 1]]

@@ -7,7 +7,7 @@ import pytest
 
 STUDY = """\
 name: drives
-world: {plugin: movingai, file: open.map, cell_size: 0.4}
+world: {plugin: movingai, file: open.map, resolution: 0.4}
 roadmap: {plugin: grid, duration_model: kinodynamic}
 scenario: {plugin: random, robots: 1}
 fleet: {robot: turtlebot3_burger, lidar: none}

@@ -43,7 +43,7 @@ def _motion(output: LorrOutput, raster: Occupancy, seconds: float, rate: float) 
     south = np.cumsum(ahead * np.array([0, 1, 0, -1])[heading], axis=0)
     every = max(1, round(1 / (rate * seconds)))
     ticks = np.unique([*range(0, output.makespan + 1, every), output.makespan])
-    cell = raster.cell_size
+    cell = raster.resolution
     x = raster.origin[0] + cell * (output.start[:, 1] + 0.5 + east[ticks] / counter)
     y = raster.origin[1] + cell * (raster.shape[0] - output.start[:, 0] - 0.5 - south[ticks] / counter)
     yaw = -math.pi / 2 * (output.start[:, 2] + turned[ticks] / counter)

@@ -193,5 +193,5 @@ def cells_of(raster: Occupancy, poses: np.ndarray, what: str) -> Int:
 def _likely(raster: Occupancy, tasks: list[Task], robots: int, steps: int) -> int:
     """More tasks than robots will do: twice what they would do on straight ways."""
     ways = [np.abs(np.diff(task.goals[:, :2], axis=0)).sum() for task in tasks]
-    cells = max(1.0, float(np.mean(ways)) / raster.cell_size + 0.25 * sum(raster.shape))
+    cells = max(1.0, float(np.mean(ways)) / raster.resolution + 0.25 * sum(raster.shape))
     return 1 + math.ceil(2 * robots * steps / cells)

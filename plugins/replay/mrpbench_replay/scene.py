@@ -53,7 +53,7 @@ def _level(level: Level, number: int, packing: Packing) -> dict[str, Any]:
     }
     if level.occupancy is not None:
         packing.add(f"blocked_{number}", level.occupancy.blocked)
-        fields["raster"] = {"cell": level.occupancy.cell_size, "origin": list(level.occupancy.origin)}
+        fields["raster"] = {"cell": level.occupancy.resolution, "origin": list(level.occupancy.origin)}
     return fields
 
 

@@ -89,7 +89,7 @@ def test_every_part_of_a_world_is_there(store, chunk, record, run_context, tmp_p
     triangle = [[0, 0], [1, 0], [1, 1]]
     level = Level(
         name="<ground>",
-        occupancy=Occupancy(blocked=[[True, False, False], [False, False, True]], cell_size=0.5, origin=(1.0, -2.0)),
+        occupancy=Occupancy(blocked=[[True, False, False], [False, False, True]], resolution=0.5, origin=(1.0, -2.0)),
         obstacles=(Obstacle(name="rack", polygon=triangle),),
         doors=(Door(name="gate", start=(0, 1), end=(1, 1)),),
         floors=(Area(polygon=triangle),),

@@ -76,7 +76,7 @@ def write_run(recording: Recording, file: Path) -> None:
 
 def _write_map(file: Path, world: World, cell_size: float | None) -> None:
     occupancy = world.levels[0].occupancy
-    size = cell_size or (RESOLUTION if occupancy is None else occupancy.cell_size)
+    size = cell_size or (RESOLUTION if occupancy is None else occupancy.resolution)
     write_ros_map(file, rasterise(world.levels[0], size, "touched"))
 
 
@@ -107,4 +107,4 @@ def planned_raster(roadmap: Roadmap) -> Occupancy:
     if walled:
         what = "pairs of neighbouring cells are separated by something solid, which a .map cannot express"
         sys.stderr.write(f"{walled} {what}\n")
-    return Occupancy(blocked=blocked, cell_size=roadmap.grid.cell_size, origin=roadmap.grid.origin)
+    return Occupancy(blocked=blocked, resolution=roadmap.grid.cell_size, origin=roadmap.grid.origin)

@@ -33,7 +33,7 @@ def room():
 def cells():
     """A raster of 20 × 30 cells, a fifth of them blocked."""
     blocked = np.random.default_rng(0).random((20, 30)) < 0.2
-    raster = Occupancy(blocked=blocked, cell_size=0.5, origin=(-1.0, 2.0))
+    raster = Occupancy(blocked=blocked, resolution=0.5, origin=(-1.0, 2.0))
     return World(name="cells", levels=(Level(name="L1", occupancy=raster),))
 
 

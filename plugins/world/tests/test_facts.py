@@ -115,7 +115,7 @@ def test_faults_on_upper_levels_are_found():
 def test_size_covers_rasters_obstacles_and_places():
     assert size(World(name="", levels=(Level(name=""),))) == (0, 0)
     assert size(world_of(("a", 1, 1), ("b", 4, 3))) == (3, 2)
-    raster = Level(name="", occupancy=Occupancy(blocked=np.zeros((4, 6), bool), cell_size=0.5))
+    raster = Level(name="", occupancy=Occupancy(blocked=np.zeros((4, 6), bool), resolution=0.5))
     assert size(World(name="", levels=(raster,))) == (3, 2)
     table = Level(name="", obstacles=(Obstacle(name="", polygon=[[0, 0], [2, 0], [2, 1]]),))
     assert size(World(name="", levels=(table,))) == (2, 1)

@@ -6,7 +6,7 @@ from mrpbench_worlds_standard.movingai import MovingAi
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.worlds.occupancy import Occupancy
 
-RASTER = Occupancy(blocked=[[True, False, False], [False, False, False]], cell_size=0.5, origin=(1, 2))
+RASTER = Occupancy(blocked=[[True, False, False], [False, False, False]], resolution=0.5, origin=(1, 2))
 
 
 def test_the_first_line_of_a_map_is_the_highest(tmp_path):

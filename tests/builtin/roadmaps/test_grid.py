@@ -136,7 +136,7 @@ def test_a_place_is_never_moved_through_a_wall(make_fleet):
 
 def test_a_raster_is_taken_cell_by_cell(make_fleet):
     blocked = np.array([[0, 1, 0], [0, 1, 0]], bool)
-    world = World(name="", levels=(Level(name="", occupancy=Occupancy(blocked=blocked, cell_size=1.0)),))
+    world = World(name="", levels=(Level(name="", occupancy=Occupancy(blocked=blocked, resolution=1.0)),))
     for builder in (GridRoadmap(), GridRoadmap(cell_size=1.0)):
         roadmap = builder.build(world, make_fleet(0.5))
         assert roadmap.grid.cell.tolist() == [[0, 0], [0, 2], [1, 0], [1, 2]]
@@ -146,14 +146,14 @@ def test_a_raster_is_taken_cell_by_cell(make_fleet):
 def test_a_robot_larger_than_a_raster_cell_keeps_its_distance(make_fleet):
     blocked = np.zeros((5, 5), bool)
     blocked[0, 0] = True
-    world = World(name="", levels=(Level(name="", occupancy=Occupancy(blocked=blocked, cell_size=1.0)),))
+    world = World(name="", levels=(Level(name="", occupancy=Occupancy(blocked=blocked, resolution=1.0)),))
     roadmap = GridRoadmap().build(world, make_fleet(1.0))
     cells = {tuple(cell) for cell in roadmap.grid.cell.tolist()}
     assert cells == {(row, column) for row in (1, 2, 3) for column in (1, 2, 3)} - {(1, 1)}
 
 
 def test_another_cell_size_rasterises_a_raster_anew(make_fleet):
-    world = World(name="", levels=(Level(name="", occupancy=Occupancy(blocked=[[False, True]], cell_size=1.0)),))
+    world = World(name="", levels=(Level(name="", occupancy=Occupancy(blocked=[[False, True]], resolution=1.0)),))
     roadmap = GridRoadmap(cell_size=0.25).build(world, make_fleet(0.1))
     assert roadmap.grid.shape == (4, 8)
     assert len(roadmap.position) == 16

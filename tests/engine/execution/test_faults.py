@@ -230,7 +230,7 @@ def aisle(tmp_path, text=AISLE, agents=SCENARIO, **changes):
     (tmp_path / "aisle.map").write_text(text)
     (tmp_path / "aisle.scen").write_text(agents.replace("\t5\t", f"\t{len(text.splitlines()) - 4}\t"))
     study = {
-        "world": {"plugin": "movingai", "file": str(tmp_path / "aisle.map"), "cell_size": 0.5},
+        "world": {"plugin": "movingai", "file": str(tmp_path / "aisle.map"), "resolution": 0.5},
         "scenario": {"plugin": "movingai", "file": str(tmp_path / "aisle.scen"), "robots": agents.count("aisle.map")},
         "roadmap": "grid",
         "planner": "prioritized",

@@ -45,7 +45,7 @@ def test_a_polygon_has_its_solid_on_the_left_whichever_way_it_was_drawn():
 @settings(deadline=None, max_examples=50)
 @given(arrays(bool, st.tuples(st.integers(1, 8), st.integers(1, 8))))
 def test_the_outline_of_a_raster_is_the_border_of_its_free_cells(blocked):
-    outline = raster_outline(Occupancy(blocked=blocked, cell_size=0.5, origin=(-1.0, 2.0)))
+    outline = raster_outline(Occupancy(blocked=blocked, resolution=0.5, origin=(-1.0, 2.0)))
     assert np.isclose(enclosed(outline), -0.25 * (~blocked).sum())
     free = np.pad(~blocked, 1)
     borders = (free[1:] != free[:-1]).sum() + (free[:, 1:] != free[:, :-1]).sum()
@@ -61,7 +61,7 @@ def test_the_outline_of_a_raster_is_the_border_of_its_free_cells(blocked):
 
 
 def test_runs_are_joined():
-    assert len(raster_outline(Occupancy(blocked=np.zeros((3, 7), bool), cell_size=1.0))) == 4
+    assert len(raster_outline(Occupancy(blocked=np.zeros((3, 7), bool), resolution=1.0))) == 4
 
 
 def test_a_level_is_all_it_holds():
@@ -69,7 +69,7 @@ def test_a_level_is_all_it_holds():
         name="L1",
         walls=[[0, 0, 1, 0], [0, 1, 1, 1]],
         obstacles=(Obstacle(name="crate", polygon=[[0, 0], [1, 0], [0, 1]]),),
-        occupancy=Occupancy(blocked=[[False]], cell_size=1.0),
+        occupancy=Occupancy(blocked=[[False]], resolution=1.0),
     )
     assert segments(World(name="w", levels=(Level(name="L0"), level)), 1).shape == (8 + 3 + 4, 4)
     assert segments(World(name="w", levels=(Level(name="L0"), level)), 0).shape == (0, 4)

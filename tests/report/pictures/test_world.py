@@ -86,7 +86,7 @@ def test_planned_or_driven_paths_can_be_drawn_alone(tmp_path, part):
 def test_every_part_of_a_world_can_be_drawn(tmp_path):
     level = Level(
         name="",
-        occupancy=Occupancy(blocked=[[True, False], [False, False]], cell_size=2.0),
+        occupancy=Occupancy(blocked=[[True, False], [False, False]], resolution=2.0),
         obstacles=(Obstacle(name="", polygon=[[2, 2], [3, 2], [3, 3]]),),
         doors=(Door(name="", start=(0, 3), end=(1, 3)),),
     )

@@ -84,11 +84,11 @@ def transform(now: float, parent: str, child: str, planar: Iterable[float], z: f
     return message
 
 
-def occupancy_grid(level: Level, cell_size: float) -> Any:
+def occupancy_grid(level: Level, resolution: float) -> Any:
     """The map of one level."""
-    raster = rasterise(level, level.occupancy.cell_size if level.occupancy else cell_size, "touched")
+    raster = rasterise(level, level.occupancy.resolution if level.occupancy else resolution, "touched")
     message = OccupancyGrid(header=header(0.0, "map"))
-    message.info.resolution = raster.cell_size
+    message.info.resolution = raster.resolution
     message.info.height, message.info.width = raster.shape
     message.info.origin = pose((*raster.origin, 0.0), level.elevation)
     message.data = array("b", np.where(raster.blocked, 100, 0).astype("i1").tobytes())

@@ -135,7 +135,7 @@ def config(given: argparse.Namespace) -> dict[str, Any]:
             "shelf_rows": side,
             "shelf_columns": side,
             "shelf_length": 4,
-            "cell_size": 1.0,
+            "resolution": 1.0,
         },
         "roadmap": "grid",
         "scenario": {"plugin": "random", "robots": given.robots},

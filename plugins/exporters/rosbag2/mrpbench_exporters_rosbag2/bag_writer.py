@@ -52,7 +52,7 @@ class BagWriter(FormatWriter):
         self.sources = [source for source in sources(context, recipe.rmf) if self._wanted(source.topic)]
         self.facilities = FacilityStates(context.world)
         self.blocks = Blocks(max(1, POSES_PER_BLOCK // max(1, len(context.fleet))))
-        latched = [said for said in opening(context, self.start, recipe.map_cell_size) if self._wanted(said[0])]
+        latched = [said for said in opening(context, self.start, recipe.map_resolution) if self._wanted(said[0])]
         self.bag: Bag | None = Bag(destination, recipe.storage, recipe.version)
         self.bag.describe("mrpbench_run_id", context.run_id)
         for topic, data in latched:

@@ -12,25 +12,25 @@ MOST_CELLS = 2**24
 """Worlds that would need more get larger cells: a viewer holds a map in memory."""
 
 
-def rasterise(world: World, index: int, cell_size: float) -> Occupancy:
+def rasterise(world: World, index: int, resolution: float) -> Occupancy:
     """Return the raster of level `index`; one that is a raster by nature keeps its cells and gets its walls added."""
     level = world.levels[index]
     shapes = [wall_outline(wall, level.wall_thickness) for wall in level.walls]
     shapes += [obstacle.polygon for obstacle in level.obstacles]
     if level.occupancy is not None:
-        cell_size, origin = level.occupancy.cell_size, level.occupancy.origin
+        resolution, origin = level.occupancy.resolution, level.occupancy.origin
         blocked = level.occupancy.blocked.copy()
     else:
         low, high = _extent(world, index, shapes)
-        while np.prod(np.ceil((high - low) / cell_size)) > MOST_CELLS:
-            cell_size *= 2
-        first = np.floor(low / cell_size)
-        columns, rows = (np.ceil(high / cell_size) - first).astype(int)
-        origin = (float(first[0] * cell_size), float(first[1] * cell_size))
+        while np.prod(np.ceil((high - low) / resolution)) > MOST_CELLS:
+            resolution *= 2
+        first = np.floor(low / resolution)
+        columns, rows = (np.ceil(high / resolution) - first).astype(int)
+        origin = (float(first[0] * resolution), float(first[1] * resolution))
         blocked = np.zeros((rows, columns), bool)
     for shape in shapes:
-        block(blocked, (shape - origin) / cell_size)
-    return Occupancy(blocked=blocked, cell_size=cell_size, origin=origin)
+        block(blocked, (shape - origin) / resolution)
+    return Occupancy(blocked=blocked, resolution=resolution, origin=origin)
 
 
 def wall_outline(wall: Float, thickness: float) -> Float:

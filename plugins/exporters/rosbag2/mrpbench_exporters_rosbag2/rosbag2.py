@@ -49,10 +49,11 @@ class Rosbag2(WritableFormat, ReadableFormat):
         help="release of the messages of `/fleet_states`: `galactic` as the original benchmark ran, `humble` to Jazzy, "
         "or `rolling`",
     )
-    map_cell_size: float = option(
+    map_resolution: float = option(
         0.05,
         help="of `/map`; a world that is a raster keeps its own",
         unit="m",
+        former="map_cell_size",
         validator=attrs.validators.gt(0),
     )
     ground_truth: tuple[str, ...] = option(("/{robot}/ground_truth",), help="topics with true poses in `map`")
@@ -70,7 +71,7 @@ class Rosbag2(WritableFormat, ReadableFormat):
 
     def idle_options(self) -> dict[str, str]:
         """Return the options of reading, and those of topics that are not written."""
-        needs = {"rmf": "/fleet_states", "map_cell_size": "/map"}
+        needs = {"rmf": "/fleet_states", "map_resolution": "/map"}
         return dict.fromkeys(READING, "it is for reading bags") | {
             name: f"`topics` leaves out {topic}" for name, topic in needs.items() if not selected(topic, self.topics)
         }

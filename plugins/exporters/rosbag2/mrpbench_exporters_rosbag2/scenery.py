@@ -11,15 +11,15 @@ LANE = (0.2, 0.5, 0.9, 0.5)
 """Colour."""
 
 
-def occupancy_map(world: World, index: int, stamp: int, cell_size: float) -> tuple[Topic, bytes]:
+def occupancy_map(world: World, index: int, stamp: int, resolution: float) -> tuple[Topic, bytes]:
     """`/map` for the first level, `/map_1` for the second, ..."""
     topic = Topic(f"/map_{index}" if index else "/map", "nav_msgs/OccupancyGrid", latched=True)
-    raster = rasterise(world, index, cell_size)
+    raster = rasterise(world, index, resolution)
     rows, columns = raster.shape
     info = message(
         "nav_msgs/MapMetaData",
         map_load_time=time(stamp),
-        resolution=raster.cell_size,
+        resolution=raster.resolution,
         width=columns,
         height=rows,
         origin=pose(spatial(np.array([*raster.origin, 0.0]), world.levels[index].elevation)),

@@ -13,12 +13,12 @@ from mrpbench_exporters_rosbag2.scenery import navigation_graph, occupancy_map
 from mrpbench_exporters_rosbag2.whole import whole
 
 
-def opening(context: RunContext, stamp: int, cell_size: float) -> Iterator[tuple[Topic, bytes]]:
+def opening(context: RunContext, stamp: int, resolution: float) -> Iterator[tuple[Topic, bytes]]:
     """Return all messages at the start, with the stamp `stamp` (nanoseconds)."""
     yield _run(context)
     yield whole(context)
     for index in range(len(context.world.levels)):
-        yield occupancy_map(context.world, index, stamp, cell_size)
+        yield occupancy_map(context.world, index, stamp, resolution)
     if context.world.vertices:
         yield navigation_graph(context.world, stamp)
     if any(robot.lidar for robot in context.fleet.robots):

@@ -62,14 +62,14 @@ def test_a_cell_fully_outside_is_free():
 def test_a_level_that_is_a_raster_keeps_its_cells_and_gets_its_walls():
     cells = np.zeros((4, 5), bool)
     cells[3, 0] = True
-    level = {"occupancy": Occupancy(blocked=cells, cell_size=1.0, origin=(10.0, 20.0)), "wall_thickness": 0.1}
+    level = {"occupancy": Occupancy(blocked=cells, resolution=1.0, origin=(10.0, 20.0)), "wall_thickness": 0.1}
     found = rasterise(world(walls=[[12.5, 20.5, 13.5, 20.5]], **level), 0, 0.05)
-    assert (found.cell_size, found.origin) == (1.0, (10.0, 20.0))
+    assert (found.resolution, found.origin) == (1.0, (10.0, 20.0))
     assert sorted(zip(*np.nonzero(found.blocked), strict=True)) == [(0, 2), (0, 3), (3, 0)]
 
 
 def test_shapes_beyond_a_raster_are_cut_off():
-    level = {"occupancy": Occupancy(blocked=np.zeros((2, 2), bool), cell_size=1.0)}
+    level = {"occupancy": Occupancy(blocked=np.zeros((2, 2), bool), resolution=1.0)}
     found = rasterise(world(walls=[[-5, 0.5, 5, 0.5], [7, 7, 9, 9]], **level), 0, 1.0)
     assert found.blocked.tolist() == [[True, True], [False, False]]
 
@@ -87,7 +87,7 @@ def test_the_raster_reaches_beyond_walls_and_places():
 def test_a_large_world_gets_larger_cells(monkeypatch):
     monkeypatch.setattr(raster, "MOST_CELLS", 1000)
     found = rasterise(world(walls=[[0, 0, 10, 0], [0, 10, 10, 10]]), 0, 0.05)
-    assert found.cell_size == pytest.approx(0.4)
+    assert found.resolution == pytest.approx(0.4)
     assert np.prod(found.shape) < 1100
 
 

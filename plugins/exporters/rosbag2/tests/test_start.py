@@ -109,7 +109,7 @@ def test_every_level_has_its_map(context, tmp_path, read):
     ground = context.world.levels[0]
     upstairs = attrs.evolve(ground, name="L2", elevation=4.0)
     world = attrs.evolve(context.world, levels=(ground, upstairs))
-    Rosbag2(map_cell_size=0.1).open(attrs.evolve(context, world=world), tmp_path / "bag").close()
+    Rosbag2(map_resolution=0.1).open(attrs.evolve(context, world=world), tmp_path / "bag").close()
     bag = read(tmp_path / "bag")
     (_, first), (_, second) = bag["/map"][0], bag["/map_1"][0]
     assert (first.info.origin.position.z, second.info.origin.position.z) == (0.5, 4.0)

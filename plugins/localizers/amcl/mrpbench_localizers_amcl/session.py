@@ -73,7 +73,7 @@ class AmclSession(LocalizerSession):
         return longest, shortest
 
 
-def _free(world: World, cell_size: float) -> Float:
+def _free(world: World, resolution: float) -> Float:
     """Return the centres f8[k,2] of the free cells."""
-    raster = rasterise(world.levels[0], cell_size, rule="touched")
+    raster = rasterise(world.levels[0], resolution, rule="touched")
     return np.ascontiguousarray(raster.centres(np.argwhere(~raster.blocked)))

@@ -128,7 +128,7 @@ def _wrong(run: FinishedRun, size: float, centres: Float, occupied: Bool) -> Boo
 
 
 def _within(raster: Occupancy, points: Float) -> tuple[Bool, Int]:
-    offset = (points - raster.origin) / raster.cell_size
+    offset = (points - raster.origin) / raster.resolution
     beyond = (offset < 0) | (offset >= raster.shape[::-1])
     inside: Bool = ~(beyond[:, 0] | beyond[:, 1])
     return inside, np.where(inside[:, None], offset[:, ::-1], 0).astype(np.int64)

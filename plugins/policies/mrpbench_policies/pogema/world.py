@@ -16,10 +16,10 @@ class PogemaWorld(WorldSource):
 
     file: Path = option(help="the file of maps")
     map: str = option(help="the name of the map in it")
-    cell_size: float = option(1.0, help="side of a cell", unit="m", validator=between(0.01, 100))
+    resolution: float = option(1.0, help="side of a cell", unit="m", validator=between(0.01, 100), former="cell_size")
 
     def load(self) -> World:
         """Read the map."""
         blocked = read_map(self.file, self.map)
-        level = Level(name="L1", occupancy=Occupancy(blocked=blocked[::-1], cell_size=self.cell_size))
+        level = Level(name="L1", occupancy=Occupancy(blocked=blocked[::-1], resolution=self.resolution))
         return World(name=self.map, levels=(level,))

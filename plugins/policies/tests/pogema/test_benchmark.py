@@ -61,7 +61,7 @@ def drawn(files, name, robots, seed):
 
 
 def test_rows_count_from_the_top_and_y_from_below(files):
-    world = PogemaWorld(file=files / "maps.yaml", map="letters", cell_size=2.0).load()
+    world = PogemaWorld(file=files / "maps.yaml", map="letters", resolution=2.0).load()
     raster = world.levels[0].occupancy
     assert raster.blocked.tolist() == [[True, False, False], [False] * 3]
     scenario = drawn(files, "ring", 2, 0)

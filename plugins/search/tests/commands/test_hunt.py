@@ -69,7 +69,7 @@ def test_a_fault_at_one_junction_is_found_shrunk_and_repeated(hall):
 @pytest.mark.parametrize("chosen", ["dispatcher=./faulty.py:ReleasesEarly", "controller=./faulty.py:BlindLeft"])
 def test_the_faults_that_make_hunts_searches_for_are_rare(hall, chosen):
     words = ("planner=example", "simulator=kinematic", "control_rate=5", "limits.execution=90 s", "seed=0")
-    world = "world={plugin: movingai, file: hall.map, cell_size: 1}"
+    world = "world={plugin: movingai, file: hall.map, resolution: 1}"
     assert hall("run", "hall.yaml", *words, world, "scenario.robots=2", "metrics=[execution]", chosen)[0] == 0
     (record,) = load("results/hall")
     assert record["metrics"]["execution.robot_contacts"] == 0

@@ -8,7 +8,7 @@ from mrpbench_search.commands.saturate import Search
 
 STUDY = """\
 name: shuttle
-world: {plugin: movingai, file: two.map, cell_size: 0.5}
+world: {plugin: movingai, file: two.map, resolution: 0.5}
 roadmap: grid
 scenario: {plugin: random, robots: 1}
 fleet: {robot: turtlebot3_burger, lidar: none}

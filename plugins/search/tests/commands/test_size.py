@@ -7,7 +7,7 @@ import pytest
 
 STUDY = """\
 name: floor
-world: {plugin: movingai, file: floor.map, cell_size: 0.5}
+world: {plugin: movingai, file: floor.map, resolution: 0.5}
 roadmap: grid
 scenario: {plugin: random, robots: 1}
 fleet: {robot: turtlebot3_burger, lidar: none}
@@ -48,7 +48,7 @@ def test_robots_are_added_until_the_budget_is_spent(floor):
 
 ENERGY = "{chargers: ['*'], battery: {capacity: 0.5, voltage: 10, ambient: 100, charging_current: 20}}"
 """Empty within three minutes; full again in a minute and a half."""
-SHIFT = STUDY.replace("world: {plugin: movingai, file: floor.map, cell_size: 0.5}", "world: office").replace(
+SHIFT = STUDY.replace("world: {plugin: movingai, file: floor.map, resolution: 0.5}", "world: office").replace(
     "roadmap: grid", "roadmap: graph"
 )
 SHIFT = SHIFT.replace(

@@ -11,7 +11,7 @@ pytest.importorskip("optuna", reason="tuning needs Optuna")
 
 STUDY = """\
 name: room
-world: {plugin: movingai, file: room.map, cell_size: 0.5}
+world: {plugin: movingai, file: room.map, resolution: 0.5}
 roadmap: grid
 scenario: {plugin: random, robots: 1}
 assigner: identity

@@ -22,7 +22,7 @@ from test_hunt import HALL, RANDOM, STUDY  # noqa: E402
 
 EXECUTED = """\
 name: {name}
-world: {{plugin: movingai, file: hall.map, cell_size: {cell}}}
+world: {{plugin: movingai, file: hall.map, resolution: {cell}}}
 roadmap: grid
 scenario: {{plugin: random, robots: {robots}}}
 assigner: identity

@@ -72,7 +72,7 @@ def raster_rectangles(occupancy: Occupancy) -> list[Float]:
             rectangles += [_rectangle(occupancy, run[0], open_runs.pop(run), run[1], row)]
         for run in here:
             open_runs.setdefault(run, row)
-    margin = max(1, round(_FRAME / occupancy.cell_size))
+    margin = max(1, round(_FRAME / occupancy.resolution))
     for left, low, right, high in (
         (-margin, -margin, columns + margin, 0),
         (-margin, rows, columns + margin, rows + margin),
@@ -94,7 +94,7 @@ def _runs(occupancy: Occupancy) -> list[tuple[int, int, int, int]]:
 
 def _rectangle(occupancy: Occupancy, left: int, low: int, right: int, high: int) -> Float:
     corners = np.array([(left, low), (right, low), (right, high), (left, high)], float)
-    placed: Float = np.asarray(occupancy.origin) + occupancy.cell_size * corners
+    placed: Float = np.asarray(occupancy.origin) + occupancy.resolution * corners
     return placed
 
 

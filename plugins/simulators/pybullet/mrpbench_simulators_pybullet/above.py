@@ -32,7 +32,7 @@ _BATCH = 16_000
 
 def occupancy_from_above(
     level: Level,
-    cell_size: float,
+    resolution: float,
     origin: tuple[float, float] | None = None,
     shape: tuple[int, int] | None = None,
 ) -> Occupancy:
@@ -47,9 +47,9 @@ def occupancy_from_above(
     low, high = bounds(level)
     origin = (float(low[0]), float(low[1])) if origin is None else origin
     if shape is None:
-        across, up = ((high - origin) / cell_size - 1e-9).tolist()
+        across, up = ((high - origin) / resolution - 1e-9).tolist()
         shape = (max(1, math.ceil(up)), max(1, math.ceil(across)))
-    blank = Occupancy(blocked=np.zeros(shape, bool), cell_size=cell_size, origin=origin)
+    blank = Occupancy(blocked=np.zeros(shape, bool), resolution=resolution, origin=origin)
     triangles = roofs(level)
     if not len(triangles):
         return blank

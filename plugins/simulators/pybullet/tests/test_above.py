@@ -51,7 +51,7 @@ def test_geometry_and_rays_agree_on_public_maps(shared_data, name):
 def test_geometry_and_rays_agree_on_rasters():
     level = GeneratedRooms().load().levels[0]
     rows, columns = level.occupancy.shape
-    size = level.occupancy.cell_size
+    size = level.occupancy.resolution
     frame = {"origin": level.occupancy.origin, "shape": (2 * rows, 2 * columns)}
     geometry, rays = (way(level, size / 2, **frame).blocked for way in (rasterise, occupancy_from_above))
     assert np.array_equal(geometry, rays)

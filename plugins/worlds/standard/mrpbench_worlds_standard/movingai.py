@@ -22,10 +22,12 @@ class MovingAi(WorldSource):
     """
 
     file: Path = option(help="The .map file.")
-    cell_size: float = option(1.0, help="Side of a cell.", unit="m", validator=attrs.validators.gt(0))
+    resolution: float = option(
+        1.0, help="Side of a cell.", unit="m", validator=attrs.validators.gt(0), former="cell_size"
+    )
 
     def load(self) -> World:
         """Read the raster; no walls, no places, no lanes."""
         blocked = read_movingai_map(self.file)
-        level = Level(name="L1", occupancy=Occupancy(blocked=blocked[::-1], cell_size=self.cell_size))
+        level = Level(name="L1", occupancy=Occupancy(blocked=blocked[::-1], resolution=self.resolution))
         return World(name=self.file.name.removesuffix(".map"), levels=(level,))

@@ -79,7 +79,7 @@ class RosMap(WorldSource):
             notes.append("no cell is occupied, so the map has no walls (image, mode, negate, occupied_thresh).")
         if blocked.all():
             notes.append("no cell is free (image, mode, negate, free_thresh; option unknown).")
-        occupancy = Occupancy(blocked=blocked[::-1], cell_size=size, origin=(x, y))
+        occupancy = Occupancy(blocked=blocked[::-1], resolution=size, origin=(x, y))
         angle = math.remainder(yaw[0] if yaw else 0.0, 2 * math.pi)
         if not math.isclose(angle, round(angle / (math.pi / 2)) * math.pi / 2, abs_tol=1e-6):
             notes.append(f"the map is rotated by {math.degrees(angle):.2f}° and resampled.")

@@ -16,7 +16,7 @@ def rotate(occupancy: Occupancy, angle: float) -> Occupancy:
     Quarter turns are exact. Otherwise each new cell takes the value at its centre, and cells outside the raster are
     blocked.
     """
-    (rows, columns), size = occupancy.shape, occupancy.cell_size
+    (rows, columns), size = occupancy.shape, occupancy.resolution
     cosine, sine = math.cos(angle), math.sin(angle)
     corners = np.array([(0, 0), (columns, 0), (columns, rows), (0, rows)]) * size
     around = corners @ np.array([(cosine, sine), (-sine, cosine)])
@@ -27,7 +27,7 @@ def rotate(occupancy: Occupancy, angle: float) -> Occupancy:
     if abs(angle - quarters * math.pi / 2) <= TOLERANCE:
         # row 0 is the lowest, so `rot90` rotates in the opposite direction
         blocked = np.rot90(occupancy.blocked, -quarters)
-        return Occupancy(blocked=blocked, cell_size=size, origin=origin)
+        return Occupancy(blocked=blocked, resolution=size, origin=origin)
     shape = np.ceil((high - low) / size - 1e-9).astype(int)
     dx = low[0] + (np.arange(shape[0]) + 0.5) * size
     blocked = np.empty((shape[1], shape[0]), bool)
@@ -36,4 +36,4 @@ def rotate(occupancy: Occupancy, angle: float) -> Occupancy:
         up = np.floor((dy * cosine - dx * sine) / size).astype(int)
         inside = (across >= 0) & (across < columns) & (up >= 0) & (up < rows)
         blocked[row] = ~inside | occupancy.blocked[np.where(inside, up, 0), np.where(inside, across, 0)]
-    return Occupancy(blocked=blocked, cell_size=size, origin=origin)
+    return Occupancy(blocked=blocked, resolution=size, origin=origin)

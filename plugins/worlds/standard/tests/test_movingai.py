@@ -18,11 +18,11 @@ def test_every_terrain_letter_has_a_meaning_and_the_first_line_is_the_top(tmp_pa
     occupancy = world.levels[0].occupancy
     assert world.name == "tiny"
     assert occupancy.blocked.tolist() == [[False] * 7, [False, False, False, True, True, True, True]]
-    assert occupancy.cell_size == 1.0
+    assert occupancy.resolution == 1.0
 
 
-def test_the_cell_size_can_be_chosen(tmp_path):
-    assert load(tmp_path, cell_size=0.5).levels[0].occupancy.cell_size == 0.5
+def test_the_resolution_can_be_chosen(tmp_path):
+    assert load(tmp_path, resolution=0.5).levels[0].occupancy.resolution == 0.5
 
 
 def test_windows_line_ends_are_read(tmp_path):

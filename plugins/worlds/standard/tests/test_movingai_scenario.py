@@ -14,7 +14,7 @@ BLOCKED = np.zeros((2, 3), bool)
 BLOCKED[0, 0] = True  # lowest row, first column
 WORLD = World(
     name="tiny",
-    levels=(Level(name="L1", occupancy=Occupancy(blocked=BLOCKED, cell_size=0.5, origin=(10.0, 20.0))),),
+    levels=(Level(name="L1", occupancy=Occupancy(blocked=BLOCKED, resolution=0.5, origin=(10.0, 20.0))),),
 )
 ROW = "0\ttiny.map\t3\t2\t{}\t{}\t{}\t{}\t1.5\n"
 
@@ -69,7 +69,7 @@ def test_the_published_instances_stand_on_free_cells(shared_data, name):
     folder = shared_data / "movingai"
     lines = (folder / "maps" / f"{name}.map").read_text().splitlines()[4:]
     free = np.array([[cell in ".G" for cell in line] for line in lines])
-    world = World(name=name, levels=(Level(name="L1", occupancy=Occupancy(blocked=~free[::-1], cell_size=1.0)),))
+    world = World(name=name, levels=(Level(name="L1", occupancy=Occupancy(blocked=~free[::-1], resolution=1.0)),))
     source = MovingAiScenario(file=folder / "scens" / f"{name}-random-1.scen", robots=50)
     scenario = source.draw(world, grid(2, 3), Fleet(robots=()), 0)
     first = (folder / "scens" / f"{name}-random-1.scen").read_text().splitlines()[1].split("\t")

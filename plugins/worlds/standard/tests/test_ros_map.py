@@ -47,7 +47,7 @@ def test_dark_is_occupied_and_the_top_is_north(load):
     world = load([[0, 254, 254], [254, 254, 128]])
     assert blocked(world) == [[True, False, False], [False, False, True]]
     occupancy = world.levels[0].occupancy
-    assert (occupancy.cell_size, occupancy.origin, world.name) == (0.05, (-1, 2), "map")
+    assert (occupancy.resolution, occupancy.origin, world.name) == (0.05, (-1, 2), "map")
     np.testing.assert_allclose(occupancy.centres(np.array([[1, 0]])), [[-0.975, 2.075]])
 
 
@@ -168,7 +168,7 @@ def test_other_turns_are_sampled_anew_and_said_so(load):
 
 def test_a_map_is_read_as_it_was_written(tmp_path):
     generator = np.random.default_rng(1)
-    occupancy = Occupancy(blocked=generator.random((17, 23)) < 0.3, cell_size=0.1, origin=(-3.7, 1 / 3))
+    occupancy = Occupancy(blocked=generator.random((17, 23)) < 0.3, resolution=0.1, origin=(-3.7, 1 / 3))
     write_ros_map(tmp_path / "out.yaml", occupancy)
     assert RosMap(file=tmp_path / "out.yaml").load().levels[0].occupancy == occupancy
 

@@ -27,14 +27,16 @@ class GeneratedRandom(WorldSource):
         help="Probability that a cell is blocked.",
         validator=between(0, 0.4),
     )
-    cell_size: float = option(CELL_SIZE, help="Side of a cell.", unit="m", validator=between(*CELL_SIZES))
+    resolution: float = option(
+        CELL_SIZE, help="Side of a cell.", unit="m", validator=between(*CELL_SIZES), former="cell_size"
+    )
     seed: int = option(0, help="Seed of the blocked cells.")
 
     def load(self) -> World:
         """Draw the cells."""
         free_raster(self.rows, self.columns)
         blocked = (chances(self.seed, self.rows * self.columns) < self.blocked).reshape(self.rows, self.columns)
-        return raster_world(f"random_{self.columns}x{self.rows}_{self.seed}", _largest_part(blocked), self.cell_size)
+        return raster_world(f"random_{self.columns}x{self.rows}_{self.seed}", _largest_part(blocked), self.resolution)
 
 
 def _largest_part(blocked: Bool) -> Bool:

@@ -24,9 +24,9 @@ def free_raster(rows: int, columns: int) -> Bool:
     return np.zeros((rows, columns), bool)
 
 
-def raster_world(name: str, blocked: Bool, cell_size: float) -> World:
+def raster_world(name: str, blocked: Bool, resolution: float) -> World:
     """Return a world of one level without places; scenarios draw from all cells."""
-    return World(name=name, levels=(Level(name="L1", occupancy=Occupancy(blocked=blocked, cell_size=cell_size)),))
+    return World(name=name, levels=(Level(name="L1", occupancy=Occupancy(blocked=blocked, resolution=resolution)),))
 
 
 def chances(seed: int, count: int) -> Float:

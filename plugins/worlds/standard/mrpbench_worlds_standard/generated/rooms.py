@@ -27,7 +27,9 @@ class GeneratedRooms(WorldSource):
         help="Chance of a door in a wall that the tree leaves closed.",
         validator=between(0, 1),
     )
-    cell_size: float = option(CELL_SIZE, help="Side of a cell.", unit="m", validator=between(*CELL_SIZES))
+    resolution: float = option(
+        CELL_SIZE, help="Side of a cell.", unit="m", validator=between(*CELL_SIZES), former="cell_size"
+    )
     seed: int = option(0, help="Seed of the random doors.")
 
     def __attrs_post_init__(self) -> None:
@@ -51,7 +53,7 @@ class GeneratedRooms(WorldSource):
             else:
                 blocked[row + self.room, column + offset : column + offset + self.door] = False
         rows, columns = blocked.shape
-        return raster_world(f"rooms_{columns}x{rows}_{self.seed}", blocked, self.cell_size)
+        return raster_world(f"rooms_{columns}x{rows}_{self.seed}", blocked, self.resolution)
 
     def _walls(self) -> Int:
         """Return the pairs i8[k,2] of neighbouring rooms, numbered row by row: right neighbours, then upper ones."""

@@ -29,7 +29,9 @@ class GeneratedWarehouse(WorldSource):
         help="Probability that a shelf is missing.",
         validator=between(0, 1),
     )
-    cell_size: float = option(CELL_SIZE, help="Side of a cell.", unit="m", validator=between(*CELL_SIZES))
+    resolution: float = option(
+        CELL_SIZE, help="Side of a cell.", unit="m", validator=between(*CELL_SIZES), former="cell_size"
+    )
     seed: int = option(0, help="Seed of the missing shelves.")
 
     def load(self) -> World:
@@ -43,4 +45,4 @@ class GeneratedWarehouse(WorldSource):
             row, column = divmod(index, self.shelf_columns)
             bottom, left = self.margin + row * up, self.margin + column * across
             blocked[bottom : bottom + self.shelf_depth, left : left + self.shelf_length] = True
-        return raster_world(f"warehouse_{columns}x{rows}_{self.seed}", blocked, self.cell_size)
+        return raster_world(f"warehouse_{columns}x{rows}_{self.seed}", blocked, self.resolution)
