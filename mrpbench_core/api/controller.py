@@ -155,6 +155,10 @@ class Controller(Component):
         """True if it works by scans: runs with robots that have no lidar are refused."""
         return False
 
+    def robot_notes(self, robot: RobotModel) -> tuple[str, ...]:  # noqa: ARG002 - for those that override it
+        """Return what the user should know before this robot is driven, one line each, e.g. limits out of reach."""
+        return ()
+
     @abstractmethod
     def start(self, robot: RobotModel, world: World, period: float) -> ControllerSession:
         """Begin to control one robot; `world` is the static map, `period` the control period in simulated seconds."""

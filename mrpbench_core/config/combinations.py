@@ -5,6 +5,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from mrpbench_core.api.component import Component
+from mrpbench_core.api.controller import Controller
 from mrpbench_core.config.items import Item
 from mrpbench_core.config.settings import (
     EXECUTION,
@@ -117,6 +118,9 @@ class IdleOptions:
                     idle = self._shared(_idle_options, component)
                     self._of_components |= dict.fromkeys(self._shared(_notes, component))
                     unused |= {f"{block}.{name}": IDLE + reason for name, reason in idle.items()}
+        if config.controller is not None:
+            for entry in config.fleet:
+                self._of_components |= dict.fromkeys(self._shared(_robot_notes, config.controller, str(entry.robot)))
         if all(entry.graph is None or not _is(config.roadmap, "graph") for entry in config.fleet):
             unused |= {
                 f"fleet.{number}.graph": f"{IDLE}only `roadmap: graph` has lanes of graphs"
@@ -132,6 +136,13 @@ def _idle_options(component: Component) -> Mapping[str, str]:
 
 def _notes(component: Component) -> tuple[str, ...]:
     return component.notes()
+
+
+def _robot_notes(controller: Controller, robot: str) -> tuple[str, ...]:
+    try:
+        return controller.robot_notes(load_robot(robot))
+    except InputError:  # the runs report it
+        return ()
 
 
 def _of_planning_only(config: RunConfig) -> Iterator[tuple[str, str]]:

@@ -23,6 +23,7 @@ from mrpbench_core.files.nav2_file import Nav2File
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.worlds.world import World
 
+_ANY_PERIOD = 0.05
 _FURTHER = robot_options("further")
 _Read = tuple[dict[str, Any], tuple[Critic, ...], tuple[dict[str, Any], Polygon]]
 """Values of the controller, its critics, and values and footprint of its costmap."""
@@ -130,6 +131,19 @@ class LocalController(Controller):
     def notes(self) -> tuple[str, ...]:
         """Return what the Nav2 file says without effect."""
         return self._read(SOME_ROBOT, self.file())[1]
+
+    def robot_notes(self, robot: RobotModel) -> tuple[str, ...]:
+        """Return which speeds and accelerations of the Nav2 file are beyond the robot, whose own limits then apply."""
+        if self.nav2 is None:
+            return ()
+        values = self.read()[0]
+        limits = self.limits(dict(values), robot, _ANY_PERIOD)
+        beyond = [
+            f"{name} {value:g} (robot: {limits[name]:g})"
+            for name, value in values.items()
+            if isinstance(value, float) and isinstance(limits.get(name), float) and abs(limits[name]) < abs(value)
+        ]
+        return (f"{self.nav2}: beyond {robot.name}, whose own limits apply: {', '.join(beyond)}",) if beyond else ()
 
     def idle_options(self) -> dict[str, str]:
         """Return options that the others make idle."""

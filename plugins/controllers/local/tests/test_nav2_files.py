@@ -271,3 +271,14 @@ def test_robots_drive_alike_by_files_that_say_the_same(tmp_path):
     (tmp_path / "other.yaml").write_text(NESTED.replace("0.15", "0.1"))
     other = drive(Dwb(nav2=tmp_path / "other.yaml").start(BURGER, room(), PERIOD), STRAIGHT, seconds=6.0).pose
     assert not np.array_equal(tracks[0], other)
+
+
+def test_limits_of_a_file_that_the_robot_does_not_reach_are_named(write):
+    file = write(server('FollowPath: {plugin: "dwb_core::DWBLocalPlanner", max_vel_x: 0.5, max_vel_theta: 1.0}'))
+    study = {"world": "office", "scenario": {"robots": 2}, "planner": "cbs", "controller": {"plugin": "dwb"}}
+    assert load_study(study).notes == ()
+    notes = load_study(study | {"controller": {"plugin": "dwb", "nav2": str(file)}}).notes
+    assert [note for note in notes if "beyond" in note] == [
+        f"{file}: beyond turtlebot3_burger, whose own limits apply: max_vel_x 0.5 (robot: 0.22)"
+    ]
+    assert Dwb(nav2=file, max_vel_x=0.1).robot_notes(BURGER) == ()
