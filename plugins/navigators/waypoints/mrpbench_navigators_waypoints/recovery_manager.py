@@ -13,8 +13,10 @@ from mrpbench_core.api.controller import FleetControllerSession
 from mrpbench_core.api.recovery import Recovery, RecoverySession, Surroundings
 from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.common.geometry import point_segment_distance
 from mrpbench_core.model.execution.motion import Event
 from mrpbench_navigators_waypoints.route_follower import RouteFollower
+from mrpbench_navigators_waypoints.route_tables import SLACK
 
 
 @attrs.frozen(kw_only=True)
@@ -101,7 +103,10 @@ class RecoveryManager:
         return events
 
     def _surroundings(self, robot: int, pose: Float) -> Surroundings:
-        vertex, distance = self._follower.cleared_vertex(robot, *pose[robot, :2].tolist())
+        here = pose[robot, :2]
+        if self._robots[robot].lidar is None:
+            return _HeldSurroundings(self._controllers, robot, self._follower.held_way(robot), here)
+        vertex, distance = self._follower.cleared_vertex(robot, *here.tolist())
         return _KnownSurroundings(self._controllers, robot, vertex, distance)
 
 
@@ -130,6 +135,34 @@ class _KnownSurroundings(Surroundings):
             return free
         apart: Bool = np.hypot(poses[:, 0] - self._vertex[0], poses[:, 1] - self._vertex[1]) >= self._distance
         return free & apart
+
+
+class _HeldSurroundings(Surroundings):
+    """The surroundings of a robot without a lidar, which sees no other robot: the way that it still holds.
+
+    Args:
+        controllers: know which poses are free.
+        robot: index of the robot.
+        held: waypoints f8[k,2] that no other robot may be at, in order.
+        here: f8[2], where the robot is; it need not come nearer to them.
+    """
+
+    def __init__(self, controllers: FleetControllerSession, robot: int, held: Float, here: Float) -> None:
+        self._controllers, self._robot, self._held = controllers, robot, held
+        self._distance = float(self._from_held(here[None])[0]) + SLACK
+
+    def clear(self) -> None:
+        self._controllers.clear(self._robot)
+
+    def is_free(self, poses: Float) -> Bool:
+        near: Bool = self._from_held(poses[:, :2]) <= self._distance
+        return near & self._controllers.is_free(self._robot, poses)
+
+    def _from_held(self, points: Float) -> Float:
+        """Metres f8[k] from the held way."""
+        ends = np.concatenate([self._held[1:], self._held[-1:]])
+        distance: Float = point_segment_distance(points[:, None], self._held, ends).min(axis=1)
+        return distance
 
 
 def _command(answer: Any, recovery: str, robot: int) -> tuple[float, float]:

@@ -176,6 +176,13 @@ class RouteFollower:
         vertex = tuple(self.tables.arrival[at, :2].tolist())
         return vertex, min(float(self._clearances[robot]), float(np.hypot(x - vertex[0], y - vertex[1]))) - SLACK
 
+    def held_way(self, robot: int) -> Float:
+        """The waypoints f8[k,2] that a robot has not cleared, up to the one that it drives to; at least one."""
+        first = self.tables.first[robot]
+        end = min(self.reached[robot] + 1, self.tables.last[robot])
+        held: Float = self.tables.arrival[first + self.cleared[robot] : first + end + 1, :2]
+        return held
+
     def _read_progress(self) -> None:
         """Take read-only copies of the counts, which others may keep."""
         self.reached, self.cleared = (read_only(counts.copy()) for counts in self._counts)
