@@ -172,7 +172,10 @@ pogema: install ## compare 100,000 random steps with POGEMA, in its own environm
 	$(POGEMA)/python -m pip install --quiet --disable-pip-version-check pogema==1.4.0
 	$(BIN)/python plugins/policies/tests/observations/soak_pogema.py $(or $(STEPS),100000) 1
 	$(BIN)/python benchmarks/policies.py
-	$(BIN)/python benchmarks/pogema_tables.py $(ARGS)
+	$(POGEMA)/python -m pip install --quiet --disable-pip-version-check --no-deps pogema-toolbox==0.1.1 pyyaml
+	$(POGEMA)/python plugins/policies/tests/pogema/write_problems.py build/pogema/benchmark
+	$(BIN)/python benchmarks/pogema_tables.py --benchmark build/pogema/benchmark --set 01-random $(ARGS)
+	$(BIN)/python benchmarks/pogema_lifelong.py --maps 16
 
 slurm: install ## run the array job of the page on clusters on a SLURM cluster of this machine (Debian, root; five minutes)
 	$(BIN)/python scripts/slurm.py

@@ -1,5 +1,6 @@
 """The comparison with published results of POGEMA's benchmark, on an excerpt of it."""
 
+import json
 import runpy
 from pathlib import Path
 
@@ -9,6 +10,7 @@ from mrpbench_core.api import InputError
 
 TABLES = runpy.run_path(str(Path(__file__).parents[4] / "benchmarks" / "pogema_tables.py"))
 SET = "03-warehouse"
+RANDOM = TABLES["EXCERPT"] / "raw_data_MAPF" / "01-random" / "LaCAM.json"
 
 
 def compared(**options):
@@ -31,3 +33,11 @@ def test_planners_are_compared_with_what_is_published():
 def test_missing_results_are_one_line():
     with pytest.raises(InputError, match=r"RHCR\.json: there is no such file \(there are: LaCAM\)"):
         next(TABLES["published"](TABLES["EXCERPT"], SET, "RHCR"))
+
+
+def test_the_published_results_of_random_maps_are_compared_in_pairs():
+    (problem,) = json.loads(RANDOM.read_text())[:1]
+    pair = TABLES["Pair"](ours=problem["metrics"] | {"SoC": 82}, published=problem["metrics"], contradicted=False)
+    assert TABLES["paired"]([pair]) == "SoC in pairs: 1 of 1 equal, 0.0 % more"
+    dearer = TABLES["Pair"](ours=problem["metrics"] | {"SoC": 90.2}, published=problem["metrics"], contradicted=False)
+    assert TABLES["paired"]([pair, dearer]).startswith("SoC in pairs: 1 of 2 equal, 5.0 ±")

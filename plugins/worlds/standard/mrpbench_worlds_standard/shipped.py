@@ -1,4 +1,4 @@
-"""The worlds that come with the core: editable `building.yaml` files in the folder `data`."""
+"""The worlds that come with this distribution: editable `building.yaml` files in the folder `data`."""
 
 from pathlib import Path
 from typing import Literal
