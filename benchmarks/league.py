@@ -12,7 +12,6 @@ import resource
 import time
 from pathlib import Path
 
-import attrs
 import numpy as np
 from mrpbench_league.execute import Options, execute
 from mrpbench_league.files.problem import LorrProblem, read_problem
@@ -75,7 +74,7 @@ def speed(steps: int, guidance: bool) -> None:
     blocked[:, ::12] = False
     problem = drawn(2023, blocked, 10_000, 1000, (1,))
     options = Options(planner="pibt", iterations=0, guidance=guidance, table_mib=4096)
-    execution = discrete.open(problem=problem, **attrs.asdict(options))
+    execution = discrete.open(problem=problem, **options.arguments(10_000))
     began = time.perf_counter()
     execution.run_until(50)
     warm = time.perf_counter()

@@ -18,12 +18,8 @@ class Discs:
     def __init__(self, radii: Float, robots: int, segments: Float, stride: float) -> None:
         self._radii = radii
         self._robots = robots
-        self._nearby = Nearby(segments, float(radii.max(initial=0.0)) + stride)
-        first, second = np.triu_indices(len(radii), 1)
-        pushable = first < robots
-        self._first, self._second = first[pushable], second[pushable]
-        self._both = self._second < robots
-        self._spacing = radii[self._first] + radii[self._second]
+        self._widest = float(radii.max(initial=0.0))
+        self._nearby = Nearby(segments, self._widest + stride)
 
     def separate(self, before: Float, after: Float, leaves: Float) -> tuple[Float, set[tuple[int, int]]]:
         """Resolve overlaps of discs that moved from `before` to `after`, f8[n,2] each and at most `stride` apart.
@@ -59,19 +55,19 @@ class Discs:
         """
         contacts: set[tuple[int, int]] = set()
         shift = np.zeros_like(centres)
-        offset = centres[self._second] - centres[self._first]
-        distance = np.hypot(offset[:, 0], offset[:, 1])
-        close = np.flatnonzero(distance < self._spacing - _TOUCH)
-        for pair in close.tolist():
-            first, second, both = int(self._first[pair]), int(self._second[pair]), bool(self._both[pair])
-            contacts.add((first, second))
-            direction = offset[pair] / distance[pair] if distance[pair] > 0 else np.array([1.0, 0.0])
-            push = direction * (self._spacing[pair] - distance[pair])
-            shift[first] -= push / 2 if both else push
-            if both:
-                shift[second] += push / 2
         by_mover = np.zeros(len(centres), bool)
-        by_mover[self._first[close[~self._both[close]]]] = True
+        for first, second in np.column_stack(self._overlapping(centres, _TOUCH)).tolist():
+            contacts.add((first, second))
+            offset = centres[second] - centres[first]
+            distance = np.hypot(*offset)
+            direction = offset / distance if distance > 0 else np.array([1.0, 0.0])
+            push = direction * (self._radii[first] + self._radii[second] - distance)
+            if second < self._robots:
+                shift[first] -= push / 2
+                shift[second] += push / 2
+            else:
+                shift[first] -= push
+                by_mover[first] = True
         against = by_mover[owner] & (_overlap(centres + shift, self._radii, owner, walls) > _TOUCH)
         pushed = owner[against]  # movers that are not there yet are infinitely far away
         shift[pushed] = before[pushed] - centres[pushed]
@@ -83,6 +79,21 @@ class Discs:
             contacts.add((robot, -1))
             shift[robot] = _away(centres[robot], walls[row]) * deep[row]
         return (centres + shift if contacts else None), contacts
+
+    def _overlapping(self, centres: Float, depth: float) -> tuple[Int, Int]:
+        """Pairs of a robot i8[k] and a disc i8[k] of higher index that overlap by more than `depth`, in order."""
+        order = np.argsort(centres[:, 0], kind="stable")
+        x = centres[order, 0]
+        count = np.searchsorted(x, x + 2 * self._widest, side="right") - np.arange(1, len(x) + 1)
+        left = np.repeat(np.arange(len(x)), count)
+        right = left + np.arange(1, len(left) + 1) - np.repeat(np.cumsum(count) - count, count)
+        first, second = np.sort([order[left], order[right]], axis=0)
+        first, second = first[first < self._robots], second[first < self._robots]
+        offset = centres[second] - centres[first]
+        close = np.hypot(offset[:, 0], offset[:, 1]) < self._radii[first] + self._radii[second] - depth
+        first, second = first[close], second[close]
+        in_order = np.lexsort((second, first))
+        return first[in_order], second[in_order]
 
     def _take_back(self, before: Float, after: Float, owner: Int, walls: Float) -> Float:
         """Undo the motion of robots that still overlap by too much, and of robots that these then overlap."""
@@ -97,10 +108,8 @@ class Discs:
 
     def _stuck(self, centres: Float, owner: Int, walls: Float) -> Bool:
         stuck = np.zeros(len(centres), bool)
-        offset = centres[self._second] - centres[self._first]
-        tight = np.hypot(offset[:, 0], offset[:, 1]) < self._spacing - TOLERANCE
-        stuck[self._first[tight]] = True
-        stuck[self._second[tight & self._both]] = True
+        stuck[np.concatenate(self._overlapping(centres, TOLERANCE))] = True
+        stuck[self._robots :] = False
         stuck[owner[_overlap(centres, self._radii, owner, walls) > TOLERANCE]] = True
         return stuck
 

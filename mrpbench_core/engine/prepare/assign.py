@@ -12,6 +12,7 @@ from mrpbench_core.engine.contract_checks import check_returned
 from mrpbench_core.engine.prepare.costs import cost_matrix
 from mrpbench_core.engine.prepare.run_instance import RunInstance, summary
 from mrpbench_core.engine.stage import Announce, RunEnded
+from mrpbench_core.model.common.arrays import read_only
 from mrpbench_core.model.planning.assignment import Assignment, AssignmentProblem
 from mrpbench_core.model.runs.status import RunStatus, Stage
 
@@ -29,7 +30,7 @@ def assign(assigner: Assigner, instance: RunInstance, announce: Announce, timing
         if faults := check_travel(costs, instance.scenario.start_names, instance.task_names):
             raise RunEnded(RunStatus.SCENARIO_INFEASIBLE, Stage.SCENARIO, summary(faults))
     else:
-        costs = np.zeros((len(instance.fleet), len(instance.scenario.tasks)))
+        costs = read_only(np.zeros((len(instance.fleet), len(instance.scenario.tasks))))
     timing["cost_matrix_s"] = time.perf_counter() - began
     question = AssignmentProblem(costs=costs, tasks=instance.scenario.tasks)
     began = time.perf_counter()

@@ -6,7 +6,7 @@ import numpy as np
 
 from mrpbench_core.api.assigner import Cost
 from mrpbench_core.engine.travel import through, travel_ticks
-from mrpbench_core.model.common.arrays import Float, Int
+from mrpbench_core.model.common.arrays import Float, Int, read_only
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.planning.goals import goal_vertices, start_vertices
 from mrpbench_core.model.planning.problem import GoalSet
@@ -30,7 +30,7 @@ def cost_matrix(kind: Cost, roadmap: Roadmap, fleet: Fleet, scenario: Scenario) 
         places = [scenario.start[:, :2], *map(np.array, task.by_errand([*task.goals[:, :2]]))]
         first, *legs = (_length(there[None] - here[:, None], kind) for here, there in pairwise(places))
         costs[:, column] = through(first, legs).min(axis=1)
-    return costs
+    return read_only(costs)
 
 
 def _length(span: Float, kind: Cost) -> Float:
@@ -45,7 +45,8 @@ def _travel_times(roadmap: Roadmap, fleet: Fleet, scenario: Scenario) -> Float:
     for row in np.unique(profile):
         robots = np.flatnonzero(profile == row)
         costs[robots] = _profile_times(roadmap, int(row), start[robots].astype(np.int64), goals)
-    return costs * roadmap.tick
+    costs *= roadmap.tick
+    return read_only(costs)
 
 
 def _profile_times(roadmap: Roadmap, profile: int, start: Int, goals: list[tuple[GoalSet, ...]]) -> Float:

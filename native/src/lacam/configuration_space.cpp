@@ -94,6 +94,9 @@ std::vector<Path> ConfigurationSpace::unit_paths_of(const std::vector<Configurat
   std::vector<Path> paths(instance_.size());
   for (int robot = 0; robot < instance_.size(); ++robot) {
     Path& path = paths[robot];
+    std::size_t moves = 0;
+    for (Tick tick = 0; tick + 1 < ticks; ++tick) moves += sequence[tick][robot] != sequence[tick + 1][robot];
+    path.reserve(2 * moves + 1);
     path.push_back(at_vertex(sequence.front()[robot], 0, 0));
     for (Tick tick = 0; tick + 1 < ticks; ++tick) {
       const std::int32_t tail = sequence[tick][robot], head = sequence[tick + 1][robot];

@@ -5,6 +5,10 @@
 #include <map>
 #include <tuple>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace mrpbench::mapf {
 
 namespace {
@@ -24,6 +28,14 @@ std::pair<Tick, Tick> range_of(std::span<const Tick> durations) {
 /// What distances are multiples of, where all edges take equally long.
 Tick unit_of(std::pair<Tick, Tick> range) {
   return range.first == range.second ? std::max<Tick>(1, range.first) : 1;
+}
+
+/// Give the memory of pages that are gone back to the system: glibc keeps blocks of that size, some GiB of them with
+/// 10,000 robots, for allocations that never come.
+void return_memory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
 }
 
 }  // namespace
@@ -112,6 +124,12 @@ void DistanceTable::advance_heap() {
   final_ = std::min(kForever, entry.distance + shortest_);
 }
 
+DistanceCache::~DistanceCache() {
+  const bool pages = !tables_.empty() && tables_.begin()->second->in_pages();
+  tables_.clear();
+  if (pages) return_memory();
+}
+
 std::unique_ptr<DistanceTable> DistanceCache::take(const Key& key) {
   const std::scoped_lock lock(mutex_);
   auto node = tables_.extract(key);
@@ -165,7 +183,13 @@ DistanceTables::DistanceTables(const Instance& instance, Limits& limits) : cache
 }
 
 DistanceTables::~DistanceTables() {
-  if (cache_) cache_->keep(std::move(tables_));
+  const bool pages = !tables_.empty() && tables_.begin()->second->in_pages();
+  if (cache_) {
+    cache_->keep(std::move(tables_));
+  } else if (pages) {
+    tables_.clear();
+    return_memory();
+  }
 }
 
 Cost DistanceTables::sum_of_costs(const Instance& instance) {

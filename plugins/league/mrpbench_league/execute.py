@@ -12,6 +12,8 @@ from mrpbench_league.files.motion import Motion, write_segments, write_steps
 from mrpbench_league.files.output import LorrOutput, write_output
 from mrpbench_league.files.problem import LorrProblem
 
+DEEP = 1000
+"""Robots up to which operations have five actions by default."""
 SEGMENT = 100
 """Ticks of a segment of motion (2026)."""
 
@@ -21,8 +23,9 @@ class Options:
     """Who plans, and what an answer may cost."""
 
     planner: Literal["pibt", "epibt"] = "epibt"
-    depth: int = attrs.field(default=4, validator=attrs.validators.in_((3, 4, 5)))
-    """Actions of an operation of `epibt`."""
+    depth: int | None = attrs.field(default=None, validator=attrs.validators.in_((None, 3, 4, 5)))
+    """Actions of an operation of `epibt`. None: 5 up to 1,000 robots, else 4, since a round takes
+    a third of the time then."""
     improve: bool = True
     """Large neighbourhood search of `epibt`, as long as there is time."""
     threads: int = attrs.field(default=1, validator=attrs.validators.ge(1))
@@ -46,6 +49,11 @@ class Options:
     table_mib: int = attrs.field(default=2048, validator=attrs.validators.ge(1))
     """Memory for distance tables, MiB. The least recently used ones are dropped and computed again when they are asked
     for; the motion does not depend on it, but for the clock."""
+
+    def arguments(self, robots: int) -> dict[str, Any]:
+        """The arguments of `discrete.open` for so many robots."""
+        depth = self.depth or (5 if robots <= DEEP else 4)
+        return attrs.asdict(attrs.evolve(self, depth=depth))
 
 
 @attrs.frozen(kw_only=True)
@@ -78,7 +86,7 @@ def execute(problem: LorrProblem, duration: int, options: Options | None = None)
         ValueError: an option is out of range.
     """
     wanted = options or Options()
-    running = discrete.open(problem=problem, **attrs.asdict(wanted))
+    running = discrete.open(problem=problem, **wanted.arguments(len(problem.start)))
     running.run_until(duration)
     letters = running.letters
     robots, width = len(problem.start), problem.blocked.shape[1]

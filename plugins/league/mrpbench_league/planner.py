@@ -20,7 +20,11 @@ class StepPlanner(Planner):
     method: Literal["epibt", "pibt"] = option(
         "epibt", help="pibt: PIBT with turns; epibt: PIBT over operations of several actions"
     )
-    depth: int = option(4, help="actions of an operation of epibt", validator=attrs.validators.in_((3, 4, 5)))
+    depth: int | None = option(
+        None,
+        help="actions of an operation of epibt; none: 5 up to 1,000 robots, else 4",
+        validator=attrs.validators.in_((None, 3, 4, 5)),
+    )
     improve: bool = option(True, help="improve the operations of epibt by large neighbourhood search")
 
     threads: int = option(

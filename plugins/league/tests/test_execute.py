@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from mrpbench_league.execute import Options, execute
+from mrpbench_league.execute import DEEP, Options, execute
 from mrpbench_league.files.problem import Delays, LorrProblem
 from mrpbench_league.scoring.rescore import rescore
 
@@ -46,6 +46,11 @@ def test_no_execution_breaks_a_rule_and_its_account_is_true(season, planner, dep
     score = rescore(problem, done.output)
     assert score.faults.kept == []
     assert (score.tasks, score.errands) == (done.output.finished, done.errands)
+
+
+def test_operations_are_deeper_in_fleets_that_leave_time_for_it():
+    assert [Options().arguments(robots)["depth"] for robots in (1, DEEP, DEEP + 1)] == [5, 5, 4]
+    assert Options(depth=3).arguments(1)["depth"] == 3
 
 
 @pytest.mark.parametrize("size", [0.4, 0.7])

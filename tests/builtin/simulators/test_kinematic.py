@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from mrpbench_core.builtin.simulators.contacts import TOLERANCE
+from mrpbench_core.builtin.simulators.contacts import TOLERANCE, Discs
 from mrpbench_core.builtin.simulators.kinematic import Kinematic
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import Fleet
@@ -164,3 +164,20 @@ def test_two_processes_agree_to_the_last_bit():
     first = run()
     assert len(first.strip()) == hashlib.sha256().digest_size * 2
     assert first == run()
+
+
+@given(seed=st.integers(0, 2**32 - 1), robots=st.integers(0, 12), movers=st.integers(0, 4))
+@settings(deadline=None)
+def test_contacts_are_those_of_all_pairs_with_a_robot(seed, robots, movers):
+    random = np.random.default_rng(seed)
+    radius, centre = random.uniform(0.05, 0.3, robots + movers), random.uniform(0, 2, (robots + movers, 2)).round(1)
+    centre[robots:][random.random(movers) < 0.3] = np.inf  # not there yet
+    _, contacts = Discs(radius, robots, np.empty((0, 4)), 0.05).separate(centre, centre, np.empty((0, 4)))
+    overlapping = {
+        (one, other)
+        for one in range(robots)
+        for other in range(one + 1, robots + movers)
+        if np.hypot(*(centre[other] - centre[one])) < radius[one] + radius[other] - 1e-9
+    }
+    assert overlapping <= contacts  # robots that are pushed may touch others
+    assert bool(contacts) == bool(overlapping)

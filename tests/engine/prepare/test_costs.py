@@ -12,6 +12,7 @@ from mrpbench_tests.instances.problems import grid_of
 from mrpbench_core.engine.prepare.costs import cost_matrix
 from mrpbench_core.engine.travel import travel_ticks
 from mrpbench_core.model.common.fleet import Fleet, RobotModel
+from mrpbench_core.model.planning.assignment import AssignmentProblem
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.planning.scenario import Scenario, Task
 
@@ -133,3 +134,11 @@ def test_travel_times_are_those_of_dijkstra(graph, together):
         patch.setattr("mrpbench_core.engine.travel.STATES", together)
         ticks = travel_ticks(roadmap, 0, everyone, everyone)
     assert ticks.T.tolist() == [dijkstra(count, arcs, source) for source in everyone]
+
+
+@pytest.mark.parametrize("kind", ["euclidean", "manhattan", "roadmap"])
+def test_the_problem_of_an_assigner_holds_no_copy_of_the_matrix(kind):
+    road = grid_of(["..."])
+    there = [tuple(place) for place in road.position.tolist()]
+    costs = cost_matrix(kind, road, Fleet(robots=(SLOW, SLOW)), scenario(there[:2], there[1:2], there[2:]))
+    assert AssignmentProblem(costs=costs).costs is costs

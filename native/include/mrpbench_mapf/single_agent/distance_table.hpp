@@ -23,6 +23,7 @@ class DistanceTable {
                 DistanceTable* then = nullptr, bool pages = false);
   /// Go on in another call, whose limits hold from now on.
   void go_on(Limits& limits);
+  bool in_pages() const { return distance_.in_pages(); }
 
   /// Ticks from `vertex` to the nearest goal, or to the end of the shortest way over the goals; kForever if there is
   /// none.
@@ -68,6 +69,7 @@ class DistanceCache {
   using Tables = std::map<Key, std::unique_ptr<DistanceTable>>;
 
   explicit DistanceCache(std::shared_ptr<const Roadmap> roadmap) : roadmap_(std::move(roadmap)) {}
+  ~DistanceCache();
   const std::shared_ptr<const Roadmap>& roadmap() const { return roadmap_; }
   /// Null if there is none.
   std::unique_ptr<DistanceTable> take(const Key& key);

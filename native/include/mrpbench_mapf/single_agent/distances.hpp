@@ -17,6 +17,7 @@ class Distances {
   /// All are kForever; in `pages`, distances that are multiples of `unit` take least.
   Distances(int vertices, bool pages, Tick unit, Limits& limits);
 
+  bool in_pages() const { return !pages_.empty(); }
   Tick operator[](int vertex) const { return pages_.empty() ? flat_[vertex] : paged(vertex); }
   void set(int vertex, Tick distance, Limits& limits) {
     if (pages_.empty()) {

@@ -29,7 +29,9 @@ class Hungarian(Assigner):
 
     def assign(self, problem: AssignmentProblem) -> Assignment:
         """Return the best assignment."""
-        costs = np.where(np.isfinite(problem.costs), problem.costs, np.inf)
+        costs = problem.costs
+        if not costs.min(initial=np.inf) > -np.inf:  # a NaN or -inf; large matrices are copied only then
+            costs = np.where(np.isfinite(costs), costs, np.inf)
         flipped = len(costs) > costs.shape[1]
         scarce = np.ascontiguousarray(costs.T) if flipped else costs
         column = self._columns(scarce)

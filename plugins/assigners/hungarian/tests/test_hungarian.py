@@ -46,3 +46,10 @@ def test_the_same_matrix_gives_the_same_assignment():
     costs = np.random.default_rng(5).integers(0, 3, (9, 9)).astype(float)  # many ties
     recipe = Hungarian()
     assert recipe.assign(AssignmentProblem(costs=costs)) == recipe.assign(AssignmentProblem(costs=costs))
+
+
+@pytest.mark.parametrize("objective", OBJECTIVES)
+@pytest.mark.parametrize("forbidden", [np.inf, -np.inf, np.nan])
+def test_a_pair_without_a_finite_cost_is_forbidden(objective, forbidden):
+    problem = AssignmentProblem(costs=[[forbidden, 9.0], [1.0, 1.0]])
+    assert Hungarian(objective=objective).assign(problem).task.tolist() == [1, 0]

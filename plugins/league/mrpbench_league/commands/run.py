@@ -24,7 +24,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--duration", type=_positive, required=True, metavar="N", help="steps, or ticks of 2026")
     parser.add_argument("--out", type=Path, default=Path("output.json"), metavar="FILE", help="(default: %(default)s)")
     parser.add_argument("--planner", choices=("pibt", "epibt"), default="epibt", help="(default: %(default)s)")
-    parser.add_argument("--depth", type=int, choices=(3, 4, 5), default=4, help="actions of an operation of epibt")
+    parser.add_argument("--depth", type=int, choices=(3, 4, 5), help="actions of an operation of epibt (4 or 5)")
     parser.add_argument("--threads", type=_positive, default=1, metavar="N", help="threads of improvement of epibt")
     parser.add_argument("--no-guidance", action="store_false", dest="guidance", help="moves cost the same everywhere")
     parser.add_argument("--active", type=_positive, metavar="N", help="robots with goals (half the cells, 2023: 3/8)")
