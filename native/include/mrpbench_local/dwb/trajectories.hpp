@@ -31,8 +31,9 @@ struct MotionOptions {
 std::vector<double> samples(double current, double lowest, double highest, double acceleration, double deceleration,
                             double time, int count);
 
-/// All trajectories from one state. The last poses, which are needed of nearly all, are computed at once; other poses
-/// only by `walk`.
+/// All trajectories from one state. The cells of the last poses, which are needed of all, follow from estimates of
+/// these poses; exact ones are computed where an estimate cannot decide, and where they are asked for. Other poses only
+/// by `walk`.
 class Trajectories {
  public:
   /// Sample and roll out; `fastest` is a further limit of speed. The options are used until the next call.
@@ -41,9 +42,13 @@ class Trajectories {
   std::size_t size() const { return size_; }
   Twist twist(std::size_t i) const { return {ahead_[i], turn_[i]}; }
   /// The last pose.
-  Pose end(std::size_t i) const { return {end_x_[i], end_y_[i], end_yaw_[i]}; }
-  /// Unit vector along the last pose's heading.
+  Pose end(std::size_t i) const { return exact_ ? Pose{end_x_[i], end_y_[i], end_yaw_[i]} : end_of(twist(i)); }
+  /// Unit vector along the last pose's heading, perhaps an estimate.
   Point heading(std::size_t i) const { return {heading_x_[i], heading_y_[i]}; }
+  /// Compute the last poses of all, before many are asked for.
+  void compute_ends() const {
+    if (!exact_) roll_out(true);
+  }
   int steps(Twist twist) const;
 
   /// Calls `visit(pose)` for every pose of a trajectory in order, start included, until it returns false.
@@ -69,18 +74,31 @@ class Trajectories {
   /// The pose at `time` seconds after the start, or the last one.
   Pose at(std::size_t i, double time) const;
 
-  /// The cells of a frame, perhaps outside of it, of the points `distance` metres ahead of the last poses. Tells
-  /// whether all are inside.
-  bool cells_ahead(const Frame& frame, double distance, std::vector<int>& x, std::vector<int>& y) const;
+  /// The cells of a frame, perhaps outside of it, of the points `distance` metres ahead of the last poses. Returns the
+  /// lowest and the highest column and row of them.
+  std::pair<Cell, Cell> cells_ahead(const Frame& frame, double distance, std::vector<int>& x,
+                                    std::vector<int>& y) const;
 
  private:
+  void roll_out(bool exact) const;
+  bool may_estimate() const;
+  int steps_to_speeds() const;
+  Pose end_of(Twist twist) const;
+  void begin(Turns& turns, std::span<const double> rates) const;
+  Limits limits_ahead() const { return {options_->acc_lim_x, options_->decel_lim_x}; }
+  Limits limits_turn() const { return {options_->acc_lim_theta, options_->decel_lim_theta}; }
+
   const MotionOptions* options_ = nullptr;
   Pose start_;
   Twist current_;
-  std::size_t size_ = 0;
-  std::vector<double> ahead_, turn_, end_x_, end_y_, end_yaw_, heading_x_, heading_y_;
-  Turns turns_;
+  std::vector<double> speeds_, rates_;
   std::vector<int> least_;  // steps of each turn rate alone
+  // Those of the last poses are estimates unless they are exact.
+  mutable bool exact_ = false;
+  mutable std::size_t size_ = 0;
+  mutable std::vector<double> ahead_, turn_, end_x_, end_y_, end_yaw_, heading_x_, heading_y_;
+  mutable Turns turns_, turns_of_one_;
+  mutable std::vector<int> close_;
 };
 
 /// The cells that hold the ends of trajectories; computed once for all critics.
@@ -89,6 +107,9 @@ class EndCells {
   struct Cells {
     double distance = 0;
     std::vector<int> x, y;
+    /// The lowest and the highest column and row.
+    Cell low, high;
+    /// Whether all are inside of the frame.
     bool inside = true;
   };
 
@@ -100,8 +121,6 @@ class EndCells {
   }
   /// Of the points `distance` metres ahead of the last poses.
   const Cells& ahead(double distance);
-  /// The lowest and the highest column and row of the ends and of another cell.
-  std::pair<Cell, Cell> box(Cell with);
 
  private:
   const Frame* frame_ = nullptr;

@@ -53,8 +53,9 @@ std::pair<std::size_t, std::size_t> Beams::around(Point p, double off) const {
   const Point away = p - origin_;
   const double distance = sim::length(away), count = static_cast<double>(size());
   if (distance <= off) return {0, size()};
-  const double half = std::asin(off / distance), step = 2 * std::numbers::pi / count;
-  const double bearing = std::atan2(away.y, away.x) - yaw_;
+  // No less than the arc sine, which is x at 0 and pi / 2 at 1, and grows more slowly than this in between.
+  const double sine = off / distance, half = sine + (std::numbers::pi / 2 - 1) * sine * sine * sine + sim::kRoughAngle;
+  const double bearing = sim::rough_angle(away) - yaw_, step = 2 * std::numbers::pi / count;
   const double first = std::floor((bearing - half) / step), last = std::ceil((bearing + half) / step);
   const double turns = std::floor(first / count);
   return {static_cast<std::size_t>(first - turns * count), static_cast<std::size_t>(std::min(count, last - first + 1))};

@@ -1,6 +1,7 @@
 // Costs of trajectories on the costmap: those of the robot's centre, or of the outline of its footprint.
 #include <algorithm>
 
+#include "mrpbench_common/wide.hpp"
 #include "mrpbench_local/costmap/collision.hpp"
 #include "mrpbench_local/costmap/footprint.hpp"
 #include "mrpbench_local/dwb/critics.hpp"
@@ -20,6 +21,14 @@ struct ObstacleOptions {
     return {{"sum_scores", &ObstacleOptions::sum_scores, "sum the costs of all poses instead of taking the last"}};
   }
 };
+
+MRPBENCH_WIDE void look_up(std::size_t count, const int* x, const int* y, int width, const std::uint8_t* costs,
+                           double* raw) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint8_t cost = costs[y[i] * width + x[i]];
+    raw[i] = cost <= kInscribed ? cost : kHit;
+  }
+}
 
 /// `PoseScore` is negative for illegal poses.
 template <class PoseScore>
@@ -41,7 +50,9 @@ class Obstacle : public Critic {
     return !sum_ && score_.complete(scene, all, raw) && some_illegal(raw, why);
   }
 
-  Reason check_end(const Scene& scene, Pose pose) override { return sum_ ? kLegal : check(scene, pose); }
+  Reason check_end(const Scene& scene, const Trajectories& all, std::size_t i) override {
+    return sum_ || score_.is_clear(scene, i) ? kLegal : check(scene, all.end(i));
+  }
 
   Reason check(const Scene& scene, Pose pose) override {
     const double score = score_(*scene.costmap, pose);
@@ -82,22 +93,30 @@ struct Centre {
   void ends(const Scene& scene, const Trajectories&, std::span<double> raw) const {
     const EndCells::Cells& cells = scene.ends->ahead(0);
     const Costmap& costmap = *scene.costmap;
+    if (cells.inside) {
+      look_up(raw.size(), cells.x.data(), cells.y.data(), costmap.frame().width, costmap.costs().data(), raw.data());
+      return;
+    }
     for (std::size_t i = 0; i < raw.size(); ++i) {
       const Cell c{cells.x[i], cells.y[i]};
-      if (!cells.inside && !costmap.frame().holds(c)) {
-        raw[i] = kOff;
-      } else {
-        raw[i] = costmap.at(c) <= kInscribed ? costmap.at(c) : kHit;
-      }
+      raw[i] = !costmap.frame().holds(c) ? kOff : costmap.at(c) <= kInscribed ? costmap.at(c) : kHit;
     }
   }
 
   bool complete(const Scene& scene, const Trajectories& all, std::span<double> raw) const {
     const EndCells::Cells& cells = scene.ends->ahead(0);
+    all.compute_ends();
     for (std::size_t i = 0; i < raw.size(); ++i) {
       if (raw[i] >= 0) raw[i] = at(*scene.costmap, {cells.x[i], cells.y[i]}, all.end(i));
     }
     return true;
+  }
+
+  /// Tell whether there is room wherever in its cell a trajectory ends.
+  bool is_clear(const Scene& scene, std::size_t i) const {
+    const EndCells::Cells& cells = scene.ends->ahead(0);
+    const Cell c{cells.x[i], cells.y[i]};
+    return scene.costmap->frame().holds(c) && scene.costmap->is_clear(c);
   }
 
  private:
@@ -121,10 +140,12 @@ struct Outline {
   }
 
   void ends(const Scene& scene, const Trajectories& all, std::span<double> raw) {
+    all.compute_ends();
     for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = (*this)(*scene.costmap, all.end(i));
   }
 
   bool complete(const Scene&, const Trajectories&, std::span<double>) const { return false; }
+  bool is_clear(const Scene&, std::size_t) const { return false; }
 };
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <climits>
 #include <limits>
+#include <tuple>
 
 #include "mrpbench_common/wide.hpp"
 
@@ -11,16 +13,24 @@ namespace mrpbench::local {
 namespace {
 
 MRPBENCH_WIDE bool find_cells(std::size_t count, const double* end_x, const double* end_y, const double* heading_x,
-                              const double* heading_y, double distance, Frame frame, int* x, int* y) {
-  frame.cells(
+                              const double* heading_y, double distance, Frame frame, int* x, int* y, int* close) {
+  return frame.likely_cells(
       count, [&](std::size_t i) { return Point{end_x[i], end_y[i]} + Point{heading_x[i], heading_y[i]} * distance; },
-      [&](std::size_t i, Cell c) {
+      [&](std::size_t i, Cell c, unsigned unsure) {
         x[i] = c.x;
         y[i] = c.y;
+        close[i] = static_cast<int>(unsure);
       });
-  unsigned outside = 0;
-  for (std::size_t i = 0; i < count; ++i) outside |= frame.holds({x[i], y[i]}) ? 0u : 1u;
-  return outside == 0;
+}
+
+/// The lowest and the highest column and row.
+MRPBENCH_WIDE std::pair<Cell, Cell> box(std::size_t count, const int* x, const int* y) {
+  Cell low{INT_MAX, INT_MAX}, high{INT_MIN, INT_MIN};
+  for (std::size_t i = 0; i < count; ++i) {
+    low = {std::min(low.x, x[i]), std::min(low.y, y[i])};
+    high = {std::max(high.x, x[i]), std::max(high.y, y[i])};
+  }
+  return {low, high};
 }
 
 }  // namespace
@@ -84,33 +94,70 @@ void Trajectories::generate(const MotionOptions& options, Pose start, Twist curr
   current_ = current;
   const double time = options.limited ? options.period : options.sim_time;
   const double highest = std::max(options.min_vel_x, std::min(options.max_vel_x, fastest));
-  const auto speeds = samples(current.ahead, options.min_vel_x, highest, options.acc_lim_x, options.decel_lim_x, time,
-                              options.vx_samples);
-  const auto rates = samples(current.turn, -options.max_vel_theta, options.max_vel_theta, options.acc_lim_theta,
-                             options.decel_lim_theta, time, options.vtheta_samples);
-  const std::array columns{&ahead_, &turn_, &end_x_, &end_y_, &end_yaw_, &heading_x_, &heading_y_};
-  for (auto* it : columns) it->resize(speeds.size() * rates.size() + Turns::kBlock);
-  turns_.begin(start.yaw, options.limited ? std::nullopt : std::optional(current.turn), rates);
-  least_.resize(rates.size());
-  for (std::size_t i = 0; i < rates.size(); ++i) least_[i] = steps({0, rates[i]});
+  speeds_ = samples(current.ahead, options.min_vel_x, highest, options.acc_lim_x, options.decel_lim_x, time,
+                    options.vx_samples);
+  rates_ = samples(current.turn, -options.max_vel_theta, options.max_vel_theta, options.acc_lim_theta,
+                   options.decel_lim_theta, time, options.vtheta_samples);
+  least_.resize(rates_.size());
+  for (std::size_t i = 0; i < rates_.size(); ++i) least_[i] = steps({0, rates_[i]});
+  roll_out(!may_estimate());
+}
+
+/// Tell whether estimates of all poses are right to a nanometre.
+bool Trajectories::may_estimate() const {
+  const double fastest = std::max({std::abs(current_.ahead), std::abs(speeds_.front()), std::abs(speeds_.back())});
+  const double turning = std::max({std::abs(current_.turn), std::abs(rates_.front()), std::abs(rates_.back())});
+  return fastest * options_->sim_time < 100 && turning * options_->sim_time < Turns::kMostTurn &&
+         steps_to_speeds() < Turns::kMostSteps;
+}
+
+/// The most steps that a trajectory takes to its speed.
+int Trajectories::steps_to_speeds() const {
+  if (options_->limited) return 0;
+  const double fastest = std::max(std::abs(speeds_.front()), std::abs(speeds_.back()));
+  const int most = std::max(steps({fastest, 0}), *std::ranges::max_element(least_));
+  const double change = std::max(std::abs(speeds_.front() - current_.ahead), std::abs(speeds_.back() - current_.ahead));
+  const double by = std::min(options_->acc_lim_x, -options_->decel_lim_x) * options_->sim_time / most;
+  return change < Turns::kMostSteps * by ? whole_below(change / by) + 2 : Turns::kMostSteps;
+}
+
+void Trajectories::begin(Turns& turns, std::span<const double> rates) const {
+  turns.begin(start_.yaw, options_->limited ? std::nullopt : std::optional(current_.turn), rates);
+}
+
+/// The last poses of all trajectories.
+void Trajectories::roll_out(bool exact) const {
+  const MotionOptions& options = *options_;
+  const std::size_t columns = rates_.size();
+  for (auto* it : {&ahead_, &turn_, &end_x_, &end_y_, &end_yaw_, &heading_x_, &heading_y_}) {
+    it->resize(speeds_.size() * columns + Turns::kBlock);
+  }
+  begin(turns_, rates_);
   size_ = 0;
+  exact_ = exact;
+  const int changing = exact ? 0 : steps_to_speeds();
   const double slack = std::numeric_limits<float>::epsilon();
-  for (const double v : speeds) {
+  for (const double v : speeds_) {
     const double speed = std::abs(v);
     if (options.max_speed_xy >= 0 && speed * speed > options.max_speed_xy * options.max_speed_xy + slack) continue;
-    turns_.step(least_, steps({v, 0}), options.sim_time, {options.acc_lim_theta, options.decel_lim_theta});
-    double *const x = &end_x_[size_], *const y = &end_y_[size_];
-    turns_.drive(options.limited ? v : current.ahead, v, {options.acc_lim_x, options.decel_lim_x}, x, y);
-    for (std::size_t i = 0; i < rates.size(); ++i) {
-      x[i] += start.x;
-      y[i] += start.y;
+    const int least = steps({v, 0});
+    if (exact) {
+      turns_.step(least_, least, options.sim_time, limits_turn());
+    } else if (!turns_.estimate(least_, least, options.sim_time, limits_turn(), changing)) {
+      return roll_out(true);
     }
-    std::fill_n(&ahead_[size_], rates.size(), v);
-    std::ranges::copy(rates, &turn_[size_]);
-    std::copy_n(turns_.yaw(), rates.size(), &end_yaw_[size_]);
-    std::copy_n(turns_.heading_x(), rates.size(), &heading_x_[size_]);
-    std::copy_n(turns_.heading_y(), rates.size(), &heading_y_[size_]);
-    const std::size_t last = size_ + rates.size();
+    double *const x = &end_x_[size_], *const y = &end_y_[size_];
+    turns_.drive(options.limited ? v : current_.ahead, v, limits_ahead(), x, y);
+    for (std::size_t i = 0; i < columns; ++i) {
+      x[i] += start_.x;
+      y[i] += start_.y;
+    }
+    std::fill_n(&ahead_[size_], columns, v);
+    std::ranges::copy(rates_, &turn_[size_]);
+    std::copy_n(turns_.yaw(), columns, &end_yaw_[size_]);
+    std::copy_n(turns_.heading_x(), columns, &heading_x_[size_]);
+    std::copy_n(turns_.heading_y(), columns, &heading_y_[size_]);
+    const std::size_t last = size_ + columns;
     if (speed > 0 && speed >= options.min_speed_xy) {
       size_ = last;
       continue;
@@ -118,10 +165,20 @@ void Trajectories::generate(const MotionOptions& options, Pose start, Twist curr
     for (std::size_t i = size_; i < last; ++i) {
       if (v == 0 && turn_[i] == 0) continue;
       if (speed < options.min_speed_xy && std::abs(turn_[i]) < options.min_speed_theta) continue;
-      for (auto* it : columns) (*it)[size_] = (*it)[i];
+      for (auto* it : {&ahead_, &turn_, &end_x_, &end_y_, &end_yaw_, &heading_x_, &heading_y_}) (*it)[size_] = (*it)[i];
       ++size_;
     }
   }
+}
+
+/// The last pose of one trajectory, to the last bit as if all were computed.
+Pose Trajectories::end_of(Twist twist) const {
+  const int least = steps({0, twist.turn});
+  begin(turns_of_one_, {&twist.turn, 1});
+  turns_of_one_.step({&least, 1}, steps({twist.ahead, 0}), options_->sim_time, limits_turn());
+  double x[Turns::kBlock], y[Turns::kBlock];
+  turns_of_one_.drive(options_->limited ? twist.ahead : current_.ahead, twist.ahead, limits_ahead(), x, y);
+  return {x[0] + start_.x, y[0] + start_.y, turns_of_one_.yaw()[0]};
 }
 
 Pose Trajectories::at(std::size_t i, double time) const {
@@ -137,11 +194,27 @@ Pose Trajectories::at(std::size_t i, double time) const {
   return found;
 }
 
-bool Trajectories::cells_ahead(const Frame& frame, double distance, std::vector<int>& x, std::vector<int>& y) const {
+std::pair<Cell, Cell> Trajectories::cells_ahead(const Frame& frame, double distance, std::vector<int>& x,
+                                                std::vector<int>& y) const {
   x.resize(size_);
   y.resize(size_);
-  return find_cells(size_, end_x_.data(), end_y_.data(), heading_x_.data(), heading_y_.data(), distance, frame,
-                    x.data(), y.data());
+  close_.resize(size_);
+  const auto find = [&] {
+    return find_cells(size_, end_x_.data(), end_y_.data(), heading_x_.data(), heading_y_.data(), distance, frame,
+                      x.data(), y.data(), close_.data());
+  };
+  bool sure = find();
+  if (!sure && !exact_) {
+    compute_ends();
+    sure = find();
+  }
+  for (std::size_t i = 0; !sure && i < size_; ++i) {
+    if (!close_[i]) continue;
+    const Cell c = frame.cell(Point{end_x_[i], end_y_[i]} + Point{heading_x_[i], heading_y_[i]} * distance);
+    x[i] = c.x;
+    y[i] = c.y;
+  }
+  return box(size_, x.data(), y.data());
 }
 
 const EndCells::Cells& EndCells::ahead(double distance) {
@@ -151,18 +224,9 @@ const EndCells::Cells& EndCells::ahead(double distance) {
   if (count_ == found_.size()) found_.emplace_back();
   Cells& cells = found_[count_++];
   cells.distance = distance;
-  cells.inside = all_->cells_ahead(*frame_, distance, cells.x, cells.y);
+  std::tie(cells.low, cells.high) = all_->cells_ahead(*frame_, distance, cells.x, cells.y);
+  cells.inside = frame_->holds(cells.low) && frame_->holds(cells.high);
   return cells;
-}
-
-std::pair<Cell, Cell> EndCells::box(Cell with) {
-  const Cells& ends = ahead(0);
-  Cell low = with, high = with;
-  for (std::size_t i = 0; i < ends.x.size(); ++i) {
-    low = {std::min(low.x, ends.x[i]), std::min(low.y, ends.y[i])};
-    high = {std::max(high.x, ends.x[i]), std::max(high.y, ends.y[i])};
-  }
-  return {low, high};
 }
 
 }  // namespace mrpbench::local
