@@ -62,10 +62,13 @@ Mppi::Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key,
 void Mppi::draw() {
   sim::Draws draws(key_.seed, key_.robot, drawn_++);
   const auto vx = static_cast<float>(options_.vx_std), wz = static_cast<float>(options_.wz_std);
-  for (std::size_t i = 0; i < noise_.vx.values.size(); ++i) {
-    const auto [a, b] = draws.normal();
-    noise_.vx.values[i] = static_cast<float>(a) * vx;
-    noise_.wz.values[i] = static_cast<float>(b) * wz;
+  for (std::size_t t = 0; t < noise_.vx.steps; ++t) {
+    float *const speeds = noise_.vx[t], *const rates = noise_.wz[t];
+    for (std::size_t k = 0; k < noise_.vx.samples; ++k) {
+      const auto [a, b] = draws.normal();
+      speeds[k] = static_cast<float>(a) * vx;
+      rates[k] = static_cast<float>(b) * wz;
+    }
   }
 }
 
