@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "mrpbench_local/costmap/beams.hpp"
@@ -15,10 +16,10 @@ struct UpdateBuffers {
   std::vector<std::uint8_t> margined;
   /// The lethal cells whose costs are not written along their row.
   CellSet alone;
-  /// The cells that the scan marks, and by cell the shortest beam that ends there.
+  /// The cells that the scan marks, and by cell the shortest beam that ends there; none between scans.
   CellSet hit;
   struct Nearest {
-    float range = 0;
+    float range = std::numeric_limits<float>::infinity();
     std::int32_t beam = 0;
   };
   std::vector<Nearest> nearest;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "mrpbench_local/costmap/costmap.hpp"
 #include "mrpbench_local/costmap/footprint.hpp"
@@ -50,13 +51,13 @@ void Costmap::mark_hits() {
     const Cell c = its.ends[i];
     if (its.lengths[i] < 0 || !frame_.holds(c)) continue;
     UpdateBuffers::Nearest& nearest = its.nearest[frame_.index(c)];
-    const bool nearer = !its.hit.holds(c) || its.lengths[i] < nearest.range;
+    const bool nearer = its.lengths[i] < nearest.range;
     nearest.range = nearer ? static_cast<float>(its.lengths[i]) : nearest.range;
     nearest.beam = nearer ? static_cast<std::int32_t>(i) : nearest.beam;
     its.hit.insert(c);
   }
   its.hit.each([&](Cell c) {
-    const auto beam = static_cast<std::size_t>(its.nearest[frame_.index(c)].beam);
+    const auto beam = static_cast<std::size_t>(std::exchange(its.nearest[frame_.index(c)], {}).beam);
     const Point away = its.beams.end(beam, its.lengths[beam]) - frame_.centre(c);
     const Point inside = away * (1 / frame_.resolution) + Point{0.5, 0.5};
     hits_[hit_of(c)] = {static_cast<float>(inside.x), static_cast<float>(inside.y)};
