@@ -40,6 +40,7 @@ TEST("last poses are the same as by walking, from any state") {
   Trajectories all;
   for (const Twist current : {Twist{0, 0}, Twist{0.2, -0.7}, Twist{0.11, 0.9}}) {
     all.generate(motion, {1, 2, 0.7}, current, 1e9);
+    all.compute_ends();
     for (std::size_t i = 0; i < all.size(); ++i) {
       Pose last;
       int poses = 0;
@@ -59,6 +60,7 @@ TEST("last poses are the same as by walking, from any state") {
 TEST("cells that follow from estimates are those of the exact last poses") {
   std::mt19937 draw(5);
   const auto within = [&](double low, double high) { return std::uniform_real_distribution(low, high)(draw); };
+  Trajectories all;  // more states than there are estimates that are kept
   for (int round = 0; round < 300; ++round) {
     MotionOptions motion;
     motion.max_vel_x = motion.max_speed_xy = within(0.05, 2);
@@ -79,9 +81,10 @@ TEST("cells that follow from estimates are those of the exact last poses") {
     const Twist current{on_border ? 0 : within(0, 0.3), on_border ? 0 : within(-0.5, 0.5)};
     const Frame frame{60, 60, 0.05, {static_cast<int>(start.x * 20) - 30, static_cast<int>(start.y * 20) - 30}};
     for (const double distance : {0.0, 0.325}) {
-      Trajectories all;
       all.generate(motion, start, current, 1e9);
-      std::vector<Pose> ends;  // of each alone
+      all.generate(motion, {start.x, start.y, start.yaw + 1}, current, 1e9);
+      all.generate(motion, start, current, 1e9);  // now by an estimate from before
+      std::vector<Pose> ends;                     // of each alone
       for (std::size_t i = 0; i < all.size(); ++i) ends.push_back(all.end(i));
       std::vector<int> x, y;
       const auto [low, high] = all.cells_ahead(frame, distance, x, y);
