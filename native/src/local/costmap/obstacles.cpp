@@ -50,6 +50,7 @@ void Costmap::mark_hits() {
   for (std::size_t i = 0; i < its.ends.size(); ++i) {
     const Cell c = its.ends[i];
     if (its.lengths[i] < 0 || !frame_.holds(c)) continue;
+    __builtin_prefetch(&hits_[hit_of(c)], 1);
     UpdateBuffers::Nearest& nearest = its.nearest[frame_.index(c)];
     const bool nearer = its.lengths[i] < nearest.range;
     nearest.range = nearer ? static_cast<float>(its.lengths[i]) : nearest.range;

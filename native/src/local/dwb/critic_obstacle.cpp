@@ -22,12 +22,16 @@ struct ObstacleOptions {
   }
 };
 
-MRPBENCH_WIDE void look_up(std::size_t count, const int* x, const int* y, int width, const std::uint8_t* costs,
+/// Tells whether some are illegal.
+MRPBENCH_WIDE bool look_up(std::size_t count, const int* x, const int* y, int width, const std::uint8_t* costs,
                            double* raw) {
+  unsigned hits = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint8_t cost = costs[y[i] * width + x[i]];
     raw[i] = cost <= kInscribed ? cost : kHit;
+    hits |= cost > kInscribed;
   }
+  return hits != 0;
 }
 
 /// `PoseScore` is negative for illegal poses.
@@ -38,11 +42,8 @@ class Obstacle : public Critic {
   explicit Obstacle(const Options& options) : sum_(options.sum_scores) {}
 
   bool score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
-    if (sum_) {
-      for (std::size_t i = 0; i < all.size(); ++i) raw[i] = sum(scene, all, i);
-    } else {
-      score_.ends(scene, all, raw);
-    }
+    if (!sum_) return score_.ends(scene, all, raw) && some_illegal(raw, why);
+    for (std::size_t i = 0; i < all.size(); ++i) raw[i] = sum(scene, all, i);
     return some_illegal(raw, why);
   }
 
@@ -89,18 +90,20 @@ struct Centre {
     return at(costmap, costmap.frame().cell({pose.x, pose.y}), pose);
   }
 
-  /// The costs of the last poses; whether there is room is asked only of trajectories that could win.
-  void ends(const Scene& scene, const Trajectories&, std::span<double> raw) const {
+  /// The costs of the last poses; whether there is room is asked only of trajectories that could win. Tells whether
+  /// some may be illegal.
+  bool ends(const Scene& scene, const Trajectories&, std::span<double> raw) const {
     const EndCells::Cells& cells = scene.ends->ahead(0);
     const Costmap& costmap = *scene.costmap;
     if (cells.inside) {
-      look_up(raw.size(), cells.x.data(), cells.y.data(), costmap.frame().width, costmap.costs().data(), raw.data());
-      return;
+      return look_up(raw.size(), cells.x.data(), cells.y.data(), costmap.frame().width, costmap.costs().data(),
+                     raw.data());
     }
     for (std::size_t i = 0; i < raw.size(); ++i) {
       const Cell c{cells.x[i], cells.y[i]};
       raw[i] = !costmap.frame().holds(c) ? kOff : costmap.at(c) <= kInscribed ? costmap.at(c) : kHit;
     }
+    return true;
   }
 
   bool complete(const Scene& scene, const Trajectories& all, std::span<double> raw) const {
@@ -139,9 +142,10 @@ struct Outline {
     return *worst >= kLethal ? kHit : *worst;
   }
 
-  void ends(const Scene& scene, const Trajectories& all, std::span<double> raw) {
+  bool ends(const Scene& scene, const Trajectories& all, std::span<double> raw) {
     all.compute_ends();
     for (std::size_t i = 0; i < raw.size(); ++i) raw[i] = (*this)(*scene.costmap, all.end(i));
+    return true;
   }
 
   bool complete(const Scene&, const Trajectories&, std::span<double>) const { return false; }

@@ -1,6 +1,7 @@
 #include "mrpbench_local/dwb/dwb.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "mrpbench_common/wide.hpp"
@@ -36,6 +37,23 @@ Samples samples_of(const Trajectories& all) {
 
 MRPBENCH_WIDE void add_scaled(std::size_t count, const double* raw, double scale, double* total) {
   for (std::size_t i = 0; i < count; ++i) total[i] += raw[i] * scale;
+}
+
+/// The lowest total of those that are legal, infinite if none is.
+MRPBENCH_WIDE double lowest_legal(std::size_t count, const double* total, const Reason* why) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::array<double, 8> lowest;  // of every eighth
+  lowest.fill(kInfinity);
+  std::size_t i = 0;
+  for (; i + lowest.size() <= count; i += lowest.size()) {
+    for (std::size_t k = 0; k < lowest.size(); ++k) {
+      const double it = why[i + k] ? kInfinity : total[i + k];
+      lowest[k] = it < lowest[k] ? it : lowest[k];
+    }
+  }
+  double found = *std::ranges::min_element(lowest);
+  for (; i < count; ++i) found = !why[i] && total[i] < found ? total[i] : found;
+  return found;
 }
 
 }  // namespace
@@ -274,12 +292,10 @@ std::optional<std::size_t> Dwb::best(const Scene& scene, Buffers& its) const {
   for (std::size_t i = 0; !options_.short_circuit && i < its.all.size(); ++i) {
     if (may_win(i)) passes(scene, its, i);
   }
+  const double lowest = lowest_legal(its.all.size(), total.data(), its.why.data());
   std::optional<std::size_t> first;
-  double lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < its.all.size(); ++i) {
-    if (!(total[i] < lowest) || its.why[i]) continue;
-    lowest = total[i];
-    first = i;
+  for (std::size_t i = 0; !first && i < its.all.size(); ++i) {
+    if (total[i] == lowest && may_win(i)) first = i;
   }
   if (!first || passes(scene, its, *first)) return first;
   its.order.clear();
