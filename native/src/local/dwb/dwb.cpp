@@ -138,9 +138,7 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   }
   if (std::isnan(path.yaw) && sim::length({pose.x - end.x, pose.y - end.y}) <= frame.resolution) return Twist{};
   if (const auto turn = rotate_.command(pose, path, *it.costmap)) return turn;
-  // What is needed soon: the critics and costmaps of a fleet do not fit the cache.
   for (const Weighted& each : critics_) __builtin_prefetch(each.critic.get());
-  it.costmap->fetch();
   Buffers& its = Buffers::of_thread();
   const std::size_t points = its.path.take(frame, {pose.x, pose.y}, path.first, path.rest, options_.pruning);
   const Twist measured{thresholded(it.twist.ahead, options_.min_x_velocity_threshold),
