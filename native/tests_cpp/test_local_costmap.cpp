@@ -2,9 +2,11 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <set>
 
 #include "check.hpp"
 #include "mrpbench_local/costmap/beams.hpp"
+#include "mrpbench_local/costmap/cell_set.hpp"
 #include "mrpbench_local/costmap/costmap.hpp"
 #include "mrpbench_local/costmap/footprint.hpp"
 
@@ -31,6 +33,49 @@ int count(const Costmap& map, std::uint8_t cost) {
 }
 
 }  // namespace
+
+TEST("a set of cells is one of pairs of numbers, also when it moves") {
+  std::mt19937 draw(3);
+  const auto below = [&](int most) { return static_cast<int>(draw() % static_cast<unsigned>(most)); };
+  for (int round = 0; round < 200; ++round) {
+    const Frame frame{1 + below(round % 2 ? 150 : 70), 1 + below(30), 0.05, {0, 0}};
+    CellSet cells, others;
+    cells.begin(frame);
+    others.begin(frame);
+    std::set<std::pair<int, int>> wanted;  // by row and column
+    for (int i = below(300); i > 0; --i) {
+      const Cell c{below(frame.width), below(frame.height)};
+      if (i % 3 == 0) {
+        cells.erase(c);
+        wanted.erase({c.y, c.x});
+      } else {
+        cells.insert(c);
+        wanted.insert({c.y, c.x});
+      }
+    }
+    const Cell by{below(2 * frame.width + 1) - frame.width, round % 5 ? below(7) - 3 : 0};
+    cells.move(by);
+    std::set<std::pair<int, int>> moved;
+    for (const auto& [y, x] : wanted) {
+      if (frame.holds({x + by.x, y + by.y})) moved.insert({y + by.y, x + by.x});
+    }
+    std::vector<std::pair<int, int>> all;
+    cells.each([&](Cell c) { all.push_back({c.y, c.x}); });
+    CHECK((all == std::vector<std::pair<int, int>>(moved.begin(), moved.end())));
+    for (int y = 0; y < frame.height; ++y) {
+      const int x = below(frame.width + 1);
+      int in = x, out = x;
+      while (in < frame.width && !moved.contains({y, in})) ++in;
+      while (out < frame.width && moved.contains({y, out})) ++out;
+      CHECK(cells.next_in(x, y) == in && cells.next_out(x, y) == out);
+    }
+    others.insert({0, 0});
+    cells.insert(others);
+    bool first = false;
+    cells.each_not_in(others, [&](Cell c) { first = first || c == Cell{0, 0}; });
+    CHECK(cells.holds({0, 0}) && !first);
+  }
+}
 
 TEST("padded discs have the inscribed radii of Nav2") {
   CHECK(std::abs(inscribed_radius(padded(rounded(0.1), 0.01)) - 0.1078) < 1e-4);

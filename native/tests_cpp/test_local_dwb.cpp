@@ -1,4 +1,5 @@
 #include <cmath>
+#include <random>
 
 #include "check.hpp"
 #include "mrpbench_local/costmap/footprint.hpp"
@@ -39,6 +40,7 @@ TEST("last poses are the same as by walking, from any state") {
   Trajectories all;
   for (const Twist current : {Twist{0, 0}, Twist{0.2, -0.7}, Twist{0.11, 0.9}}) {
     all.generate(motion, {1, 2, 0.7}, current, 1e9);
+    all.compute_ends();
     for (std::size_t i = 0; i < all.size(); ++i) {
       Pose last;
       int poses = 0;
@@ -51,6 +53,49 @@ TEST("last poses are the same as by walking, from any state") {
       const Pose end = all.end(i);
       CHECK(near(last.x, end.x, 1e-12) && near(last.y, end.y, 1e-12) && near(last.yaw, end.yaw, 1e-12));
       CHECK(near(all.heading(i).x, std::cos(end.yaw), 1e-12) && near(all.heading(i).y, std::sin(end.yaw), 1e-12));
+    }
+  }
+}
+
+TEST("cells that follow from estimates are those of the exact last poses") {
+  std::mt19937 draw(5);
+  const auto within = [&](double low, double high) { return std::uniform_real_distribution(low, high)(draw); };
+  Trajectories all;  // more states than there are estimates that are kept
+  for (int round = 0; round < 300; ++round) {
+    MotionOptions motion;
+    motion.max_vel_x = motion.max_speed_xy = within(0.05, 2);
+    motion.min_vel_x = round % 3 == 0 ? -motion.max_vel_x : 0;
+    motion.max_vel_theta = within(0.1, 4);
+    motion.acc_lim_x = within(0.2, 3);
+    motion.decel_lim_x = -within(0.2, 3);
+    motion.acc_lim_theta = within(0.3, 4);
+    motion.decel_lim_theta = -within(0.3, 4);
+    motion.vx_samples = 2 + round % 9;
+    motion.vtheta_samples = 1 + round % 14;
+    motion.sim_time = within(0.1, 3);
+    motion.discretize_by_time = round % 7 == 0;
+    motion.limited = round % 5 == 0;
+    // Half of the robots stand on the border of cells and along it, where no estimate can decide.
+    const bool on_border = round % 2 == 0;
+    const Pose start{on_border ? 1.5 : within(-50, 50), on_border ? 2 : within(-50, 50), on_border ? 0 : within(-4, 4)};
+    const Twist current{on_border ? 0 : within(0, 0.3), on_border ? 0 : within(-0.5, 0.5)};
+    const Frame frame{60, 60, 0.05, {static_cast<int>(start.x * 20) - 30, static_cast<int>(start.y * 20) - 30}};
+    for (const double distance : {0.0, 0.325}) {
+      all.generate(motion, start, current, 1e9);
+      all.generate(motion, {start.x, start.y, start.yaw + 1}, current, 1e9);
+      all.generate(motion, start, current, 1e9);  // now by an estimate from before
+      std::vector<Pose> ends;                     // of each alone
+      for (std::size_t i = 0; i < all.size(); ++i) ends.push_back(all.end(i));
+      std::vector<int> x, y;
+      const auto [low, high] = all.cells_ahead(frame, distance, x, y);
+      all.compute_ends();
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const Pose end = all.end(i);
+        CHECK(end == ends[i]);
+        const Cell c = frame.cell(Point{end.x, end.y} + all.heading(i) * distance);
+        CHECK((Cell{x[i], y[i]} == c));
+        CHECK(c.x >= low.x && c.y >= low.y && c.x <= high.x && c.y <= high.y);
+      }
     }
   }
 }

@@ -27,7 +27,7 @@ Batch batch(float length) {
 }
 
 void fill(Table& table, float value) {
-  std::fill(table.values.begin(), table.values.end(), value);
+  for (std::size_t t = 0; t < table.steps; ++t) std::fill_n(table[t], table.samples, value);
 }
 
 void add_point(LocalPath& path, float x, float y = 0, float yaw = 0, bool free = true) {

@@ -58,6 +58,7 @@ class Fleet {
     double updated = -1e9;
   };
   static void refresh(Robot& robot, double now, Pose pose);
+  static void fetch(const Robot& robot);
 
   std::shared_ptr<const StaticMap> walls_;
   sim::Team team_;

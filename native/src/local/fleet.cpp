@@ -21,6 +21,13 @@ void Fleet::refresh(Robot& robot, double now, Pose pose) {
   robot.updated = now;
 }
 
+/// Begin to load what belongs to a robot into the cache. That of a fleet does not fit.
+void Fleet::fetch(const Robot& robot) {
+  for (std::size_t at = 0; at < sizeof robot; at += 64) {
+    __builtin_prefetch(reinterpret_cast<const char*>(&robot) + at);
+  }
+}
+
 void Fleet::see(double now, std::span<const std::int32_t> robots, std::span<const Pose> poses,
                 std::span<const double> ranges) {
   const std::size_t beams = robots.empty() ? 0 : ranges.size() / robots.size();
@@ -38,6 +45,8 @@ void Fleet::command(double now, std::span<const Request> requests, std::span<Twi
   const auto answer = [&](std::size_t i) {
     const Request& it = requests[i];
     Robot& robot = *robots_[it.robot];
+    if (i + 1 < requests.size()) robots_[requests[i + 1].robot]->costmap.fetch();
+    if (i + 2 < requests.size()) fetch(*robots_[requests[i + 2].robot]);
     if (!robot.controller) throw std::invalid_argument("a robot without a controller cannot be commanded");
     refresh(robot, now, it.pose);
     Extra more;

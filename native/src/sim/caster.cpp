@@ -13,19 +13,6 @@ namespace {
 /// Share of a segment's length by which it is prolonged, so that no beam slips between two that share an end.
 constexpr double kSeam = 1e-9;
 constexpr double kTurn = 2 * std::numbers::pi;
-/// Radians by which `rough_angle` may be wrong, rounded up.
-constexpr double kRough = 2e-5;
-
-/// The approximate angle of a direction (M. Abramowitz and I. A. Stegun, Handbook of Mathematical Functions, 4.4.49).
-double rough_angle(Point p) {
-  const double x = std::abs(p.x), y = std::abs(p.y), larger = std::max(x, y);
-  const double q = larger > 0 ? std::min(x, y) / larger : 0.0, s = q * q;
-  double angle = q * (0.9998660 + s * (-0.3302995 + s * (0.1801410 + s * (-0.0851330 + s * 0.0208351))));
-  angle = y > x ? std::numbers::pi / 2 - angle : angle;
-  angle = p.x < 0 ? std::numbers::pi - angle : angle;
-  return p.y < 0 ? -angle : angle;
-}
-
 /// In the frame whose x axis is `facing`, a unit vector.
 Point turned(Point p, Point facing) {
   return {p.x * facing.x + p.y * facing.y, p.y * facing.x - p.x * facing.y};
@@ -49,7 +36,7 @@ Caster::Caster(std::vector<Segment> segments, const Lidar& lidar, int threads)
       team_(std::make_unique<Team>(threads)),
       buckets_(segments, lidar.range, bucket_size(lidar.range)),
       per_radian_(lidar.beams / kTurn),
-      padding_(kRough * per_radian_),
+      padding_(kRoughAngle * per_radian_),
       edge_(1 + static_cast<long>(2 * padding_)) {
   for (const Segment& it : segments) walls_.push_back(wall(it));
   for (int i = 0; i < lidar.beams; ++i) {

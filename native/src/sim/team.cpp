@@ -13,7 +13,7 @@ struct Team::Others {
   const pid_t process = getpid();
   std::mutex mutex;
   std::condition_variable changed;
-  const std::function<void()>* take = nullptr;
+  const Take* take = nullptr;
   std::uint64_t calls = 0;
   bool ends = false;
   /// How many are in `take`.
@@ -23,7 +23,7 @@ struct Team::Others {
 
   bool are_here() const { return process == getpid(); }
 
-  void serve() {
+  void serve(std::size_t member) {
     std::uint64_t served = 0;
     std::unique_lock lock(mutex);
     while (true) {
@@ -33,7 +33,7 @@ struct Team::Others {
       const auto& work = *take;
       ++busy;
       lock.unlock();
-      work();
+      work(member);
       --busy;
       busy.notify_one();
       lock.lock();
@@ -56,18 +56,20 @@ Team::~Team() {
   others_->changed.notify_all();
 }
 
-void Team::run(std::size_t wanted, const std::function<void()>& take) {
+void Team::run(std::size_t wanted, const Take& take) {
   if (!others_) others_ = std::make_unique<Others>();
   Others& it = *others_;
-  if (!it.are_here()) return take();
-  while (it.threads.size() + 1 < wanted) it.threads.emplace_back([&it] { it.serve(); });
+  if (!it.are_here()) return take(0);
+  while (it.threads.size() + 1 < wanted) {
+    it.threads.emplace_back([&it, member = it.threads.size() + 1] { it.serve(member); });
+  }
   {
     const std::lock_guard lock(it.mutex);
     it.take = &take;
     ++it.calls;
   }
   it.changed.notify_all();
-  take();
+  take(0);
   {
     const std::lock_guard lock(it.mutex);
     it.take = nullptr;  // one that wakes up from now on is late, and nobody waits for it

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "mrpbench_local/costmap/cell_set.hpp"
 #include "mrpbench_local/costmap/grid.hpp"
-#include "mrpbench_local/costmap/lethal_cells.hpp"
 #include "mrpbench_options/options.hpp"
 #include "mrpbench_sim/segment_buckets.hpp"
 
@@ -82,7 +82,8 @@ class Costmap {
   void mark_hits();
   void clear_beams(Cell start);
   void clear_footprint(Pose pose);
-  void mark(Cell c, double range, Point p);
+  template <class Visit>
+  void each_wall_cell(Visit&& visit) const;
   template <class Visit>
   bool each_nearby(Point p, Visit&& visit) const;
   /// Tell whether a point is at least as far from what beams hit as the robot was at the last update.
@@ -99,16 +100,20 @@ class Costmap {
   bool known_ = false;
   /// Whether an update at that pose with the scan that was seen last would change nothing.
   bool settled_ = false;
-  std::vector<std::uint8_t> marks_, cost_;
+  CellSet marks_, lethal_;
+  std::vector<std::uint8_t> cost_;
   /// Where in a marked cell the nearest beam of the last scan that hit it ended, in cells from its lower left corner.
   /// The mean of all beams would lie inside of corners and thin pillars, of which two sides are seen.
   struct Hit {
-    float x = 0.5f, y = 0.5f, range = 0;
-    std::uint32_t scan = 0;
+    float x = 0.5f, y = 0.5f;
   };
+  /// By the plane's columns and rows modulo the size of the frame, so that they stay when the frame moves.
   std::vector<Hit> hits_;
-  std::uint32_t scans_ = 0;
-  LethalCells lethal_;
+  Cell first_;  // the column and row in `hits_` of the frame's first cell
+  std::size_t hit_of(Cell c) const {
+    const int x = c.x + first_.x, y = c.y + first_.y;
+    return frame_.index({x < frame_.width ? x : x - frame_.width, y < frame_.height ? y : y - frame_.height});
+  }
   /// Metres that the robot keeps from what beams hit.
   double room_ = 0;
   /// The least cost of a cell in which the robot's centre may be too close to what is lethal.

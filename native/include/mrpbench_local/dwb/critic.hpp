@@ -47,8 +47,8 @@ class Critic {
   /// Score again what `score` took for legal until it is known which trajectories could win, in the same way. Tells
   /// whether some are illegal.
   virtual bool complete(const Scene&, const Trajectories&, std::span<double>, std::span<Reason>) { return false; }
-  /// What `complete` would say of the last pose of one trajectory.
-  virtual Reason check_end(const Scene&, Pose) { return kLegal; }
+  /// What `complete` would say of one trajectory.
+  virtual Reason check_end(const Scene&, const Trajectories&, std::size_t) { return kLegal; }
   /// Check one pose of a trajectory; called only for trajectories that could win.
   virtual Reason check(const Scene&, Pose) { return kLegal; }
   /// Record the command that was chosen.

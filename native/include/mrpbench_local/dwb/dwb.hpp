@@ -33,49 +33,42 @@ class Dwb : public Controller {
 
   std::optional<Twist> command(const Situation& now, const Extra& extra) override;
 
-  /// Call it before the next scan. The trajectories from which the last command was chosen: names of the `critics`,
-  /// `twist`, `pose`, raw `score` of each critic, `total`, the `reason` why each was dropped, and the `cost`: the
-  /// total, infinite where there is such a reason. Totals of those that were not fully checked are partial. If one was
-  /// chosen, its poses are `chosen` f8[p,3], and `chosen_score` has its scores, multiplied by the scales. Nothing where
-  /// no trajectories were sampled.
+  /// Call it before the next scan: it scores again. The trajectories from which the last command was chosen: names of
+  /// the `critics`, `twist`, `pose`, raw `score` of each critic, `total`, the `reason` why each was dropped, and the
+  /// `cost`: the total, infinite where there is such a reason. Totals of those that were not fully checked are partial.
+  /// If one was chosen, its poses are `chosen` f8[p,3], and `chosen_score` has its scores, multiplied by the scales.
+  /// Nothing where no trajectories were sampled.
   Explanation explain() const override;
 
  private:
-  /// The state from which trajectories are sampled, and a further limit of speed.
+  /// What the last command followed from, so that it can be explained. Scores of a fleet do not fit the cache.
   struct Sampled {
-    Pose pose;
-    Twist twist;
-    double fastest = 0;
-    const Costmap* costmap = nullptr;
-  };
-
-  /// What critics say of the trajectories.
-  struct Scores {
-    /// Raw ones, critic by critic, and what they are multiplied by.
-    std::vector<double> raw, scale;
-    /// What the caller adds.
+    /// Without what points into buffers.
+    Scene scene;
+    /// The beginning of the path, as far as it counts, and the speed at its end.
+    std::vector<Point> path;
+    double speed = 0;
+    /// What the caller adds to the scores.
     std::vector<double> added;
-    std::vector<double> total;
-    std::vector<Reason> why;
-    /// The critic that says why, -1 = none.
-    std::vector<int> dropped;
-    bool complete = false;
   };
 
   double speed_to_stop(double left, double cell) const;
-  void score(const Scene& scene, Buffers& its, const Extra& extra);
-  void complete(const Scene& scene, const Trajectories& all, Scores& scores) const;
-  bool passes(const Scene& scene, const Trajectories& all, std::size_t i);
-  std::optional<std::size_t> best(const Scene& scene, Buffers& its);
+  void debrief();
+  Scene sample(Buffers& its) const;
+  void score(const Scene& scene, Buffers& its) const;
+  void complete(const Scene& scene, Buffers& its) const;
+  bool passes(const Scene& scene, Buffers& its, std::size_t i) const;
+  std::optional<std::size_t> best(const Scene& scene, Buffers& its) const;
 
   DwbOptions options_;
   std::vector<Weighted> critics_;
   double looks_ahead_ = 0;  // metres, the most of all critics
   Sampled sampled_;
+  bool has_sampled_ = false;  // for the last command
+  std::optional<std::size_t> chosen_;
+  Twist command_;
   std::optional<Pose> goal_;
   RotateToPath rotate_;
-  std::optional<std::size_t> chosen_;
-  Scores scores_;
 };
 
 }  // namespace mrpbench::local

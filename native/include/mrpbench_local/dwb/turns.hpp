@@ -27,6 +27,9 @@ class Turns {
  public:
   /// The number of columns that are computed at once.
   static constexpr std::size_t kBlock = 4;
+  /// Limits of `estimate`: the turn of a trajectory, radians, and the steps in which rates and speeds change.
+  static constexpr double kMostTurn = 5;
+  static constexpr int kMostSteps = 32;
 
   /// Begin at a heading and a turn rate; without one, each column turns at its own from the beginning. Then all columns
   /// have 0 steps. The rates are used until the next call.
@@ -34,6 +37,11 @@ class Turns {
   /// Give each column its number of steps, but at least `least`, that last `time` in all. The turn rate changes within
   /// the limits. Columns that have that many already stay.
   void step(std::span<const int> counts, int least, double time, Limits limits);
+
+  /// The same but for rounding errors, without yaw, in less time: headings by polynomials, and sums over the steps at
+  /// one turn rate in closed form. `changing`: steps from the first one in which speeds change. Returns false, in the
+  /// middle of it, beyond the limits.
+  bool estimate(std::span<const int> counts, int least, double time, Limits limits, int changing);
 
   /// The distances x, y of the last poses from the first one of trajectories of one speed, for each column: `now` is
   /// the speed at the first pose, `wanted` the one that is reached within the limits. Both have room for whole blocks.
@@ -47,6 +55,7 @@ class Turns {
  private:
   void accelerate(std::size_t column, int count, double time, Limits limits);
   void spin(std::size_t column);
+  bool estimate_block(std::size_t column, double time, Limits limits, int changing);
   std::size_t row(int k) const { return static_cast<std::size_t>(k) * stride_; }
 
   double first_yaw_ = 0;

@@ -10,19 +10,28 @@
 
 namespace mrpbench::local::mppi {
 
-/// One number per sample, in rows of a step each: vectors run over the samples.
+/// One number per sample, in rows of a step each: vectors run over the samples. Each row begins with a line of the
+/// cache, as a vector across two lines takes twice as long.
 struct Table {
   std::size_t steps = 0, samples = 0;
-  std::vector<float> values;
 
   void resize(std::size_t rows, std::size_t columns) {
     if (rows == steps && columns == samples) return;
     steps = rows;
     samples = columns;
-    values.assign(rows * columns, 0.0f);
+    width_ = (columns + kLine - 1) / kLine;
+    lines_.assign(rows * width_, {});
   }
-  float* operator[](std::size_t t) { return values.data() + t * samples; }
-  const float* operator[](std::size_t t) const { return values.data() + t * samples; }
+  float* operator[](std::size_t t) { return lines_[t * width_].values; }
+  const float* operator[](std::size_t t) const { return lines_[t * width_].values; }
+
+ private:
+  static constexpr std::size_t kLine = 16;
+  struct alignas(kLine * sizeof(float)) Line {
+    float values[kLine];
+  };
+  std::size_t width_ = 0;  // lines of a row
+  std::vector<Line> lines_;
 };
 
 /// The samples: velocities within the limits of acceleration, poses, and the length of each in metres.

@@ -19,7 +19,8 @@ struct Pruning {
 class PathGrid {
  public:
   /// Take the beginning of a path, up to where it leaves the frame or is farther from the robot than the pruning says.
-  void take(const Frame& frame, Point robot, Point first, std::span<const Point> rest, const Pruning& pruning);
+  /// Returns how many points of the rest that needed.
+  std::size_t take(const Frame& frame, Point robot, Point first, std::span<const Point> rest, const Pruning& pruning);
 
   bool empty() const { return cells_.empty(); }
   /// The point to drive to: the last one of the local plan, or beyond the end of the path while the robot is not there.
@@ -33,10 +34,11 @@ class PathGrid {
   const std::vector<Point>& points() const { return points_; }
 
   /// Steps along rows and columns to the nearest cell of the plan, or straight beyond its end.
-  int distance(const Frame& frame, Cell c) const {
-    const bool known = c.x >= low_.x && c.y >= low_.y && c.x <= high_.x && c.y <= high_.y;
-    return known ? distance_[frame.index(c)] : distance_from(c);
-  }
+  int distance(const Frame& frame, Cell c) const { return knows(c) ? distance_[frame.index(c)] : distance_from(c); }
+  /// Tell whether the distance of a cell is computed.
+  bool knows(Cell c) const { return c.x >= low_.x && c.y >= low_.y && c.x <= high_.x && c.y <= high_.y; }
+  /// Distances by the index of the cell in the frame, where they are computed.
+  const std::vector<std::int16_t>& distances() const { return distance_; }
   /// Compute the distances of the cells from `low` to `high`; obstacles do not matter.
   void spread(const Frame& frame, Cell low, Cell high);
   void spread(const Frame& frame) { spread(frame, {0, 0}, {frame.width - 1, frame.height - 1}); }

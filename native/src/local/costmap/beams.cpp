@@ -9,6 +9,8 @@ namespace mrpbench::local {
 
 namespace {
 
+constexpr double kTurn = 2 * std::numbers::pi;
+
 MRPBENCH_WIDE void turn(std::size_t count, const double* x, const double* y, Point by, double* to_x, double* to_y) {
   for (std::size_t i = 0; i < count; ++i) {
     const double turned_x = x[i] * by.x - y[i] * by.y, turned_y = x[i] * by.y + y[i] * by.x;
@@ -37,7 +39,7 @@ MRPBENCH_WIDE void find_cells(std::size_t count, const double* x, const double* 
 
 void Beams::aim(std::size_t count, Point origin, double yaw) {
   origin_ = origin;
-  yaw_ = yaw;
+  yaw_ = std::remainder(yaw, kTurn);
   if (size() != count) {
     for (auto* it : {&ahead_x_, &ahead_y_, &along_x_, &along_y_}) it->resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -51,13 +53,16 @@ void Beams::aim(std::size_t count, Point origin, double yaw) {
 
 std::pair<std::size_t, std::size_t> Beams::around(Point p, double off) const {
   const Point away = p - origin_;
-  const double distance = sim::length(away), count = static_cast<double>(size());
+  const double distance = sim::length(away);
   if (distance <= off) return {0, size()};
-  const double half = std::asin(off / distance), step = 2 * std::numbers::pi / count;
-  const double bearing = std::atan2(away.y, away.x) - yaw_;
-  const double first = std::floor((bearing - half) / step), last = std::ceil((bearing + half) / step);
-  const double turns = std::floor(first / count);
-  return {static_cast<std::size_t>(first - turns * count), static_cast<std::size_t>(std::min(count, last - first + 1))};
+  // No less than the arc sine, which is x at 0 and pi / 2 at 1, and grows more slowly than this in between.
+  const double sine = off / distance, half = sine + (std::numbers::pi / 2 - 1) * sine * sine * sine + sim::kRoughAngle;
+  const double bearing = sim::rough_angle(away) - yaw_, per_radian = static_cast<double>(size()) / kTurn;
+  const int count = static_cast<int>(size());
+  const int first = whole_below((bearing - half) * per_radian), last = whole_below((bearing + half) * per_radian) + 1;
+  const int rest = first % count;
+  return {static_cast<std::size_t>(rest < 0 ? rest + count : rest),
+          static_cast<std::size_t>(std::min(count, last - first + 1))};
 }
 
 void Beams::clip(const Frame& frame, std::span<double> lengths) const {

@@ -5,7 +5,6 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "local/next_byte.hpp"
 #include "mrpbench_local/costmap/footprint.hpp"
 #include "mrpbench_local/costmap/update_buffers.hpp"
 
@@ -60,8 +59,9 @@ Costmap::Costmap(CostmapOptions options, std::shared_ptr<const StaticMap> walls)
   frame_.resolution = options_.resolution;
   frame_.width = static_cast<int>(std::lround(options_.width / options_.resolution));
   frame_.height = static_cast<int>(std::lround(options_.height / options_.resolution));
-  marks_.assign(frame_.size(), kFree);
-  cost_ = marks_;
+  marks_.begin(frame_);
+  lethal_ = marks_;
+  cost_.assign(frame_.size(), kFree);
   hits_.resize(frame_.size());
   room_ = inscribed_;
   // The centres of a cell and of a lethal one are a diagonal farther apart at most than points in them.
@@ -82,11 +82,11 @@ void Costmap::see(Pose pose, const Sensor& sensor, std::span<const double> range
 }
 
 void Costmap::clear() {
-  std::fill(marks_.begin(), marks_.end(), kFree);
+  marks_.begin(frame_);
   scan_.fresh = settled_ = false;
   if (!known_) return;
   std::fill(cost_.begin(), cost_.end(), kFree);
-  lethal_.find(frame_, cost_);
+  lethal_ = marks_;
 }
 
 void Costmap::update(Pose pose) {
@@ -102,10 +102,14 @@ void Costmap::update(Pose pose) {
     trace();
     if (options_.footprint_clearing) clear_footprint(pose);
   }
-  cost_ = marks_;
-  if (options_.static_layer) draw_walls(cost_);
-  lethal_.find(frame_, cost_);
-  if (options_.inflation_layer && reach_ > 0) inflate();
+  lethal_ = marks_;
+  if (options_.static_layer) each_wall_cell([&](Cell c) { lethal_.insert(c); });
+  if (options_.inflation_layer && reach_ > 0) {
+    inflate();
+  } else {
+    std::fill(cost_.begin(), cost_.end(), kFree);
+  }
+  lethal_.each([&](Cell c) { cost_[frame_.index(c)] = kLethal; });
   room_ = inscribed_;
   each_nearby({pose.x, pose.y}, [&](double distance) { return room_ = std::min(room_, distance), true; });
   known_ = true;
@@ -117,8 +121,7 @@ template <class Visit>
 bool Costmap::each_nearby(Point p, Visit&& visit) const {
   const Point reach{inscribed_, inscribed_};
   return lethal_.each(frame_.cell(p - reach), frame_.cell(p + reach), [&](Cell c) {
-    const std::size_t i = frame_.index(c);
-    const Hit hit = marks_[i] == kLethal ? hits_[i] : Hit{};
+    const Hit hit = marks_.holds(c) ? hits_[hit_of(c)] : Hit{};
     const Point corner = frame_.centre(c) - Point{0.5, 0.5} * frame_.resolution;
     return visit(sim::length(corner + Point{hit.x, hit.y} * frame_.resolution - p));
   });
@@ -136,25 +139,18 @@ void Costmap::roll(Pose pose) {
   const int dx = origin.x - frame_.origin.x, dy = origin.y - frame_.origin.y;
   if (dx == 0 && dy == 0) return;
   frame_.origin = origin;
-  std::vector<std::uint8_t>& before = UpdateBuffers::of_thread().marks;
-  std::vector<std::size_t>& lethal = UpdateBuffers::of_thread().lethal;
-  before = marks_;
-  std::fill(marks_.begin(), marks_.end(), kFree);
-  const int left = std::max(0, -dx), right = std::min(frame_.width, frame_.width - dx);
-  for (int y = std::max(0, -dy); left < right && y < std::min(frame_.height, frame_.height - dy); ++y) {
-    const auto from = before.begin() + static_cast<std::ptrdiff_t>(frame_.index({left + dx, y + dy}));
-    std::copy_n(from, right - left, marks_.begin() + static_cast<std::ptrdiff_t>(frame_.index({left, y})));
-  }
-  lethal.clear();
-  for (std::size_t i = 0; (i = next_byte(marks_.data(), kLethal, i, marks_.size())) < marks_.size(); ++i)
-    lethal.push_back(i);
-  // In the order in which no hit is written over before it is moved.
-  const std::ptrdiff_t by = frame_.step({dx, dy});
-  if (by < 0) std::reverse(lethal.begin(), lethal.end());
-  for (const std::size_t i : lethal) hits_[i] = hits_[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(i) + by)];
+  const auto within = [](int v, int size) { return (v % size + size) % size; };
+  first_ = {within(origin.x, frame_.width), within(origin.y, frame_.height)};
+  marks_.move({-dx, -dy});
 }
 
 void Costmap::draw_walls(std::vector<std::uint8_t>& cells) const {
+  each_wall_cell([&](Cell c) { cells[frame_.index(c)] = kLethal; });
+}
+
+/// Calls `visit(cell)` for the cells of the frame through which outlines of the static map pass, perhaps repeatedly.
+template <class Visit>
+void Costmap::each_wall_cell(Visit&& visit) const {
   if (!walls_) return;
   const double left = frame_.origin.x * frame_.resolution, bottom = frame_.origin.y * frame_.resolution;
   const double right = left + frame_.width * frame_.resolution, top = bottom + frame_.height * frame_.resolution;
@@ -173,7 +169,7 @@ void Costmap::draw_walls(std::vector<std::uint8_t>& cells) const {
     if (!clip(wall.start.x, along.x, left, right) || !clip(wall.start.y, along.y, bottom, top)) continue;
     traverse(wall.start + along * from, wall.start + along * to, frame_.resolution, [&](Cell plane) {
       const Cell c{plane.x - frame_.origin.x, plane.y - frame_.origin.y};
-      if (frame_.holds(c)) cells[frame_.index(c)] = kLethal;
+      if (frame_.holds(c)) visit(c);
     });
   }
 }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "local/next_byte.hpp"
 #include "mrpbench_common/wide.hpp"
 #include "mrpbench_local/costmap/costmap.hpp"
 #include "mrpbench_local/costmap/update_buffers.hpp"
@@ -15,17 +14,30 @@ namespace {
 constexpr std::size_t kBlock = 32;
 using Block = std::uint8_t __attribute__((vector_size(kBlock)));
 
-/// Raise each of `count` costs to another.
-void raise(std::uint8_t* to, const std::uint8_t* from, std::size_t count) {
-  std::size_t i = 0;
-  for (; i + kBlock <= count; i += kBlock) {
-    Block cost, other;
-    std::memcpy(&cost, to + i, kBlock);
+inline void raise_block(std::uint8_t* to, const Block& other) {
+  Block cost;
+  std::memcpy(&cost, to, kBlock);
+  cost = cost > other ? cost : other;
+  std::memcpy(to, &cost, kBlock);
+}
+
+/// Raise each of `count` costs, whole blocks, to another.
+inline void raise(std::uint8_t* to, const std::uint8_t* from, std::size_t count) {
+  for (std::size_t i = 0; i < count; i += kBlock) {
+    Block other;
     std::memcpy(&other, from + i, kBlock);
-    cost = cost > other ? cost : other;
-    std::memcpy(to + i, &cost, kBlock);
+    raise_block(to + i, other);
   }
-  for (; i < count; ++i) to[i] = std::max(to[i], from[i]);
+}
+
+/// Raise `count` costs to the same one. A whole block after them is read and written as it is.
+inline void raise(std::uint8_t* to, std::uint8_t cost, std::size_t count) {
+  const Block other = Block{} + cost;
+  Block number;
+  for (std::size_t i = 0; i < kBlock; ++i) number[i] = static_cast<std::uint8_t>(i);
+  std::size_t i = 0;
+  for (; i + kBlock <= count; i += kBlock) raise_block(to + i, other);
+  raise_block(to + i, number < Block{} + static_cast<std::uint8_t>(count - i) ? other : Block{});
 }
 
 }  // namespace
@@ -57,50 +69,51 @@ void Costmap::draw_stamp() {
 MRPBENCH_WIDE void Costmap::inflate() {
   const auto width = static_cast<std::size_t>(frame_.width), height = static_cast<std::size_t>(frame_.height);
   const auto reach = static_cast<std::size_t>(reach_), stride = width + 2 * reach + kBlock, side = 2 * reach + 1;
-  std::vector<std::uint8_t>&margined = UpdateBuffers::of_thread().margined, &alone = UpdateBuffers::of_thread().alone;
+  std::vector<std::uint8_t>& margined = UpdateBuffers::of_thread().margined;
+  CellSet& alone = UpdateBuffers::of_thread().alone;
   margined.assign(stride * (height + 2 * reach), kFree);
-  alone.assign(width * height, 0);
+  alone.begin(frame_);
   // `row` of the stamp of a cell, or that row `below` it.
   const auto stamp = [&](std::size_t x, std::size_t y, std::size_t row, std::size_t below = 0) {
     raise(&margined[(y + row + below) * stride + x], &stamp_[row * stamp_width_], stamp_width_);
   };
-  const auto lethal = [&](std::size_t x, std::size_t y) { return cost_[y * width + x] == kLethal; };
-  const auto buried = [&](std::size_t x, std::size_t y) {
-    return (x == 0 || lethal(x - 1, y)) && (x + 1 == width || lethal(x + 1, y)) && (y == 0 || lethal(x, y - 1)) &&
-           (y + 1 == height || lethal(x, y + 1));
+  const auto lethal = [&](int x, int y) { return lethal_.holds({x, y}); };
+  const auto buried = [&](int x, int y) {
+    return (x == 0 || lethal(x - 1, y)) && (x + 1 == frame_.width || lethal(x + 1, y)) &&
+           (y == 0 || lethal(x, y - 1)) && (y + 1 == frame_.height || lethal(x, y + 1));
   };
-  for (std::size_t y = 0; y < height; ++y) {
-    for (std::size_t first = 0, end = 0; (first = next_byte(&cost_[y * width], kLethal, end, width)) < width;) {
-      for (end = first + 1; end < width && lethal(end, y);) ++end;
-      while (first < end && buried(first, y)) ++first;
-      if (first == end) continue;
-      std::size_t last = end - 1;
-      while (buried(last, y)) --last;
-      if (last - first < 2) {
-        for (std::size_t x = first; x <= last; ++x) alone[y * width + x] = kLethal;
+  for (int row_of = 0; row_of < frame_.height; ++row_of) {
+    const auto y = static_cast<std::size_t>(row_of);
+    for (int left = 0, end = 0; (left = lethal_.next_in(end, row_of)) < frame_.width;) {
+      end = lethal_.next_out(left, row_of);
+      while (left < end && buried(left, row_of)) ++left;
+      if (left == end) continue;
+      int right = end - 1;
+      while (buried(right, row_of)) --right;
+      if (right - left < 2) {
+        for (int x = left; x <= right; ++x) alone.insert({x, row_of});
         continue;
       }
+      const auto first = static_cast<std::size_t>(left), last = static_cast<std::size_t>(right);
       for (std::size_t row = 0; row < side; ++row) {
         stamp(first, y, row);
         stamp(last, y, row);
-        std::uint8_t* const between = &margined[(y + row) * stride + reach];
-        const std::uint8_t beside = stamp_[row * stamp_width_ + reach];
-        for (std::size_t x = first; x < last; ++x) between[x] = std::max(between[x], beside);
+        raise(&margined[(y + row) * stride + reach + first], stamp_[row * stamp_width_ + reach], last - first);
       }
     }
   }
+  alone.each([&](Cell c) {
+    if (c.y > 0 && alone.holds({c.x, c.y - 1})) return;  // the run began below
+    int end = c.y + 1;                                   // of the run along the column
+    while (end < frame_.height && alone.holds({c.x, end})) ++end;
+    const auto x = static_cast<std::size_t>(c.x), y = static_cast<std::size_t>(c.y);
+    const auto more = static_cast<std::size_t>(end - 1 - c.y);
+    for (std::size_t row = 0; row < reach; ++row) stamp(x, y, row);
+    for (std::size_t below = 0; below <= more; ++below) stamp(x, y, reach, below);
+    for (std::size_t row = reach + 1; row < side; ++row) stamp(x, y, row, more);
+  });
   for (std::size_t y = 0; y < height; ++y) {
-    for (std::size_t x = 0; (x = next_byte(&alone[y * width], kLethal, x, width)) < width; ++x) {
-      if (y > 0 && alone[(y - 1) * width + x]) continue;  // the run began below
-      std::size_t more = 0;                               // cells of the run along the column
-      while (y + more + 1 < height && alone[(y + more + 1) * width + x]) ++more;
-      for (std::size_t row = 0; row < reach; ++row) stamp(x, y, row);
-      for (std::size_t below = 0; below <= more; ++below) stamp(x, y, reach, below);
-      for (std::size_t row = reach + 1; row < side; ++row) stamp(x, y, row, more);
-    }
-  }
-  for (std::size_t y = 0; y < height; ++y) {
-    raise(&cost_[y * width], &margined[(y + reach) * stride + reach], width);
+    std::memcpy(&cost_[y * width], &margined[(y + reach) * stride + reach], width);
   }
 }
 

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
-#include "local/next_byte.hpp"
 #include "mrpbench_local/costmap/costmap.hpp"
 #include "mrpbench_local/costmap/footprint.hpp"
 #include "mrpbench_local/costmap/update_buffers.hpp"
@@ -33,44 +33,46 @@ void Costmap::trace() {
   its.beams.aim(scan_.ranges.size(), origin, pose.yaw);
   its.lengths.resize(scan_.ranges.size());
   its.ends.resize(scan_.ranges.size());
-  ++scans_;
+  its.hit.begin(frame_);
   if (options_.marking) mark_hits();
   if (options_.clearing) clear_beams(start);
 }
 
 void Costmap::mark_hits() {
   UpdateBuffers& its = UpdateBuffers::of_thread();
+  its.nearest.resize(frame_.size());
   for (std::size_t i = 0; i < its.lengths.size(); ++i) {
     const double range = scan_.ranges[i];
     its.lengths[i] = range >= options_.obstacle_min_range && range < options_.obstacle_max_range ? range : -1;
   }
   its.beams.end_cells(frame_, its.lengths, its.ends);
+  // Of the beams that end in a cell the shortest, of equal ones the first.
   for (std::size_t i = 0; i < its.ends.size(); ++i) {
-    const Cell& soon = its.ends[std::min(i + 8, its.ends.size() - 1)];
-    if (frame_.holds(soon)) __builtin_prefetch(&hits_[frame_.index(soon)]);
-    if (its.lengths[i] >= 0 && frame_.holds(its.ends[i]))
-      mark(its.ends[i], its.lengths[i], its.beams.end(i, its.lengths[i]));
+    const Cell c = its.ends[i];
+    if (its.lengths[i] < 0 || !frame_.holds(c)) continue;
+    __builtin_prefetch(&hits_[hit_of(c)], 1);
+    UpdateBuffers::Nearest& nearest = its.nearest[frame_.index(c)];
+    const bool nearer = its.lengths[i] < nearest.range;
+    nearest.range = nearer ? static_cast<float>(its.lengths[i]) : nearest.range;
+    nearest.beam = nearer ? static_cast<std::int32_t>(i) : nearest.beam;
+    its.hit.insert(c);
   }
-}
-
-void Costmap::mark(Cell c, double range, Point p) {
-  const std::size_t i = frame_.index(c);
-  Hit& hit = hits_[i];
-  if (marks_[i] == kLethal && hit.scan == scans_ && hit.range <= range) return;
-  marks_[i] = kLethal;
-  const Point inside = (p - frame_.centre(c)) * (1 / frame_.resolution) + Point{0.5, 0.5};
-  hit = {static_cast<float>(inside.x), static_cast<float>(inside.y), static_cast<float>(range), scans_};
+  its.hit.each([&](Cell c) {
+    const auto beam = static_cast<std::size_t>(std::exchange(its.nearest[frame_.index(c)], {}).beam);
+    const Point away = its.beams.end(beam, its.lengths[beam]) - frame_.centre(c);
+    const Point inside = away * (1 / frame_.resolution) + Point{0.5, 0.5};
+    hits_[hit_of(c)] = {static_cast<float>(inside.x), static_cast<float>(inside.y)};
+  });
+  marks_.insert(its.hit);
 }
 
 /// Clear the marks that are not of this scan and through whose cells a beam passes. They are few, because most of what
 /// a scan sees the one before saw too, so each is compared with the beams near it instead of walking along all beams.
 void Costmap::clear_beams(Cell start) {
   UpdateBuffers& its = UpdateBuffers::of_thread();
-  its.lethal.clear();
-  for (std::size_t i = 0; (i = next_byte(marks_.data(), kLethal, i, marks_.size())) < marks_.size(); ++i) {
-    if (hits_[i].scan != scans_) its.lethal.push_back(i);
-  }
-  if (its.lethal.empty()) return;
+  its.old.clear();
+  marks_.each_not_in(its.hit, [&](Cell c) { its.old.push_back(c); });
+  if (its.old.empty()) return;
   const double unseen = options_.inf_is_valid ? scan_.sensor.range : -1;
   for (std::size_t i = 0; i < its.lengths.size(); ++i) {
     const double range = std::isfinite(scan_.ranges[i]) ? scan_.ranges[i] : unseen;
@@ -84,12 +86,15 @@ void Costmap::clear_beams(Cell start) {
     const Cell end = its.ends[beam];
     return Line(start, {std::clamp(end.x, 0, frame_.width - 1), std::clamp(end.y, 0, frame_.height - 1)}).holds(away);
   };
-  for (const std::size_t i : its.lethal) {
-    const Cell c = frame_.at(i), away{c.x - start.x, c.y - start.y};
+  for (const Cell c : its.old) {
+    const Cell away{c.x - start.x, c.y - start.y};
     if (hidden > 0 && away.x * away.x + away.y * away.y < hidden * hidden) continue;
     const auto [first, count] = its.beams.around(frame_.centre(c), kOff * frame_.resolution);
-    for (std::size_t k = 0; marks_[i] == kLethal && k < count; ++k) {
-      if (passes((first + k) % its.ends.size(), away)) marks_[i] = kFree;
+    std::size_t beam = first;
+    for (std::size_t k = 0; k < count; ++k, beam = beam + 1 == its.ends.size() ? 0 : beam + 1) {
+      if (!passes(beam, away)) continue;
+      marks_.erase(c);
+      break;
     }
   }
 }
@@ -104,8 +109,7 @@ void Costmap::clear_footprint(Pose pose) {
   const Cell from = frame_.cell(low), to = frame_.cell(high);
   for (int y = std::max(from.y, 0); y <= std::min(to.y, frame_.height - 1); ++y) {
     for (int x = std::max(from.x, 0); x <= std::min(to.x, frame_.width - 1); ++x) {
-      std::uint8_t& mark = marks_[frame_.index({x, y})];
-      if (mark == kLethal && inside(corners_, frame_.centre({x, y}))) mark = kFree;
+      if (marks_.holds({x, y}) && inside(corners_, frame_.centre({x, y}))) marks_.erase({x, y});
     }
   }
 }

@@ -2,7 +2,9 @@
 // along rows and columns. The two alignment critics measure it at a point ahead of the robot.
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
+#include "mrpbench_common/wide.hpp"
 #include "mrpbench_local/dwb/critics.hpp"
 
 namespace mrpbench::local {
@@ -36,6 +38,16 @@ struct AlignOptions {
     return rows;
   }
 };
+
+MRPBENCH_WIDE void look_up(std::size_t count, const int* x, const int* y, int width, const std::int16_t* distances,
+                           double* raw) {
+  for (std::size_t i = 0; i < count; ++i) raw[i] = distances[y[i] * width + x[i]];
+}
+
+/// Steps along rows and columns to a cell.
+MRPBENCH_WIDE void add_sides(std::size_t count, const int* x, const int* y, Cell to, double* raw) {
+  for (std::size_t i = 0; i < count; ++i) raw[i] = std::abs(x[i] - to.x) + std::abs(y[i] - to.y);
+}
 
 /// Distances to the whole path, or to its end.
 template <bool to_path>
@@ -71,9 +83,13 @@ class Distance : public Critic {
     if (aggregation_ == Aggregation::last) {
       const EndCells::Cells& ends = scene.ends->ahead(nose_);
       inside = ends.inside;
-      for (std::size_t i = 0; i < all.size(); ++i) {
-        const Cell c{ends.x[i], ends.y[i]};
-        raw[i] = inside || frame.holds(c) ? cells(scene, c) : -1;
+      if (inside && (!to_path || (scene.path->knows(ends.low) && scene.path->knows(ends.high)))) {
+        count_cells(scene, ends, raw);
+      } else {
+        for (std::size_t i = 0; i < all.size(); ++i) {
+          const Cell c{ends.x[i], ends.y[i]};
+          raw[i] = frame.holds(c) ? cells(scene, c) : -1;
+        }
       }
     } else {
       for (std::size_t i = 0; i < all.size(); ++i) {
@@ -105,6 +121,16 @@ class Distance : public Critic {
   double cells(const Scene& scene, Cell c) const {
     if constexpr (to_path) return scene.path->distance(scene.costmap->frame(), c);
     return std::abs(c.x - goal_.x) + std::abs(c.y - goal_.y);
+  }
+
+  /// Of the cells of all ends, whose distances are known.
+  void count_cells(const Scene& scene, const EndCells::Cells& ends, std::span<double> raw) const {
+    if constexpr (to_path) {
+      look_up(raw.size(), ends.x.data(), ends.y.data(), scene.costmap->frame().width, scene.path->distances().data(),
+              raw.data());
+    } else {
+      add_sides(raw.size(), ends.x.data(), ends.y.data(), goal_, raw.data());
+    }
   }
 
   /// If no part of the path is on the map, all cells have the same distance.

@@ -44,6 +44,7 @@ class RotateToGoal : public Critic {
 
   bool score(const Scene& scene, const Trajectories& all, std::span<double> raw, std::span<Reason> why) override {
     std::ranges::fill(raw, 0);
+    all.compute_ends();
     for (std::size_t i = 0; i < all.size(); ++i) {
       const double speed = all.twist(i).ahead;
       if (rotating_) {

@@ -1,6 +1,7 @@
 #include "mrpbench_local/dwb/dwb.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "mrpbench_common/wide.hpp"
@@ -38,6 +39,23 @@ MRPBENCH_WIDE void add_scaled(std::size_t count, const double* raw, double scale
   for (std::size_t i = 0; i < count; ++i) total[i] += raw[i] * scale;
 }
 
+/// The lowest total of those that are legal, infinite if none is.
+MRPBENCH_WIDE double lowest_legal(std::size_t count, const double* total, const Reason* why) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::array<double, 8> lowest;  // of every eighth
+  lowest.fill(kInfinity);
+  std::size_t i = 0;
+  for (; i + lowest.size() <= count; i += lowest.size()) {
+    for (std::size_t k = 0; k < lowest.size(); ++k) {
+      const double it = why[i + k] ? kInfinity : total[i + k];
+      lowest[k] = it < lowest[k] ? it : lowest[k];
+    }
+  }
+  double found = *std::ranges::min_element(lowest);
+  for (; i < count; ++i) found = !why[i] && total[i] < found ? total[i] : found;
+  return found;
+}
+
 }  // namespace
 
 /// What one command needs, shared by the robots that a thread controls one after the other, so that it stays in its
@@ -46,6 +64,12 @@ struct Dwb::Buffers {
   Trajectories all;
   PathGrid path;
   EndCells ends;
+  /// What critics say: raw scores, critic by critic, and what they are multiplied by.
+  std::vector<double> raw, scale, total;
+  std::vector<Reason> why;
+  /// The critic that says why, -1 = none.
+  std::vector<int> dropped;
+  bool complete = false;
   std::vector<Reason> fault;
   std::vector<std::size_t> order;
 
@@ -106,8 +130,7 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   const Pose& pose = it.pose;
   const Frame& frame = it.costmap->frame();
   const Point end = path.end();
-  chosen_.reset();
-  scores_.total.clear();
+  debrief();
   if (is_new(goal_, path)) {
     goal_ = {end.x, end.y, path.yaw};
     for (const Weighted& each : critics_) each.critic->reset();
@@ -115,28 +138,37 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   }
   if (std::isnan(path.yaw) && sim::length({pose.x - end.x, pose.y - end.y}) <= frame.resolution) return Twist{};
   if (const auto turn = rotate_.command(pose, path, *it.costmap)) return turn;
-  // What is needed soon: the critics and costmaps of a fleet do not fit the cache.
   for (const Weighted& each : critics_) __builtin_prefetch(each.critic.get());
-  it.costmap->fetch();
   Buffers& its = Buffers::of_thread();
-  its.path.take(frame, {pose.x, pose.y}, path.first, path.rest, options_.pruning);
+  const std::size_t points = its.path.take(frame, {pose.x, pose.y}, path.first, path.rest, options_.pruning);
   const Twist measured{thresholded(it.twist.ahead, options_.min_x_velocity_threshold),
                        thresholded(it.twist.turn, options_.min_theta_velocity_threshold)};
-  sampled_ = {pose, measured, std::min(path.speed, speed_to_stop(its.path.left(), frame.resolution)), it.costmap};
-  its.all.generate(options_.motion, pose, measured, sampled_.fastest);
-  its.ends.begin(frame, its.all);
-  if (!its.path.empty()) {
-    const auto [low, high] = its.ends.box(frame.cell({pose.x, pose.y}));
-    const int ahead = whole_below(looks_ahead_ / frame.resolution) + 1;
-    its.path.spread(frame, {low.x - ahead, low.y - ahead}, {high.x + ahead, high.y + ahead});
+  sampled_.scene = {it.now, pose, measured, *goal_, path.tolerance, it.costmap, nullptr, nullptr};
+  sampled_.path.assign(1, path.first);
+  sampled_.path.insert(sampled_.path.end(), path.rest.begin(), path.rest.begin() + static_cast<std::ptrdiff_t>(points));
+  sampled_.speed = path.speed;
+  sampled_.added.clear();
+  has_sampled_ = true;
+  const Scene scene = sample(its);
+  score(scene, its);
+  if (extra) {
+    sampled_.added.assign(its.all.size(), 0);
+    extra(samples_of(its.all), sampled_.added);
+    for (std::size_t i = 0; i < its.all.size(); ++i) its.total[i] += sampled_.added[i];
   }
-  const Scene scene{it.now, pose, measured, *goal_, path.tolerance, it.costmap, &its.path, &its.ends};
-  score(scene, its, extra);
   chosen_ = best(scene, its);
-  const Twist command = chosen_ ? its.all.twist(*chosen_) : Twist{};
-  for (const Weighted& it : critics_) it.critic->debrief(scene, command);
+  command_ = chosen_ ? its.all.twist(*chosen_) : Twist{};
   if (!chosen_) return std::nullopt;
-  return command;
+  return command_;
+}
+
+/// Tell the critics what was commanded last. Not before the next command, so that they score in `explain` as they did.
+void Dwb::debrief() {
+  if (has_sampled_) {
+    for (const Weighted& it : critics_) it.critic->debrief(sampled_.scene, command_);
+  }
+  has_sampled_ = false;
+  chosen_.reset();
 }
 
 /// The speed from which a robot can still brake at half a cell before the end of its path, `left` metres ahead.
@@ -149,88 +181,99 @@ Dwb::Buffers& Dwb::Buffers::of_thread() {
   return buffers;
 }
 
+/// Trajectories along the path that was taken, and all that critics need to score them.
+Scene Dwb::sample(Buffers& its) const {
+  Scene scene = sampled_.scene;
+  const Frame& frame = scene.costmap->frame();
+  const double fastest = std::min(sampled_.speed, speed_to_stop(its.path.left(), frame.resolution));
+  its.all.generate(options_.motion, scene.pose, scene.twist, fastest);
+  its.ends.begin(frame, its.all);
+  if (!its.path.empty()) {
+    const EndCells::Cells& ends = its.ends.ahead(0);
+    const Cell robot = frame.cell({scene.pose.x, scene.pose.y});
+    const int ahead = whole_below(looks_ahead_ / frame.resolution) + 1;
+    its.path.spread(frame, {std::min(ends.low.x, robot.x) - ahead, std::min(ends.low.y, robot.y) - ahead},
+                    {std::max(ends.high.x, robot.x) + ahead, std::max(ends.high.y, robot.y) + ahead});
+  }
+  scene.path = &its.path;
+  scene.ends = &its.ends;
+  return scene;
+}
+
 /// Totals of all trajectories, from critics that need only their last poses.
-void Dwb::score(const Scene& scene, Buffers& its, const Extra& extra) {
+void Dwb::score(const Scene& scene, Buffers& its) const {
   const std::size_t count = its.all.size();
-  Scores& of = scores_;
-  of.total.assign(count, 0);
-  of.why.assign(count, kLegal);
-  of.dropped.assign(count, -1);
-  of.raw.resize(count * critics_.size());
-  of.scale.assign(critics_.size(), 0);
-  of.complete = false;
+  its.total.assign(count, 0);
+  its.why.assign(count, kLegal);
+  its.dropped.assign(count, -1);
+  its.raw.resize(count * critics_.size());
+  its.scale.assign(critics_.size(), 0);
+  its.complete = false;
   its.fault.resize(count, kLegal);  // it is full of that
   for (std::size_t c = 0; c < critics_.size(); ++c) {
     const Weighted& it = critics_[c];
     it.critic->prepare(scene);
-    const std::span<double> raw(&of.raw[c * count], count);
-    const double scale = of.scale[c] = it.scale * it.critic->weight(scene);
-    if (scale == 0) {
-      std::ranges::fill(raw, 0);
-      continue;
-    }
+    const std::span<double> raw(&its.raw[c * count], count);
+    const double scale = its.scale[c] = it.scale * it.critic->weight(scene);
+    if (scale == 0) continue;
     const bool faulty = it.critic->score(scene, its.all, raw, its.fault);
-    add_scaled(count, raw.data(), scale, of.total.data());
+    add_scaled(count, raw.data(), scale, its.total.data());
     for (std::size_t i = 0; faulty && i < count; ++i) {
       if (!its.fault[i]) continue;
-      if (!of.why[i]) {
-        of.why[i] = its.fault[i];
-        of.dropped[i] = static_cast<int>(c);
+      if (!its.why[i]) {
+        its.why[i] = its.fault[i];
+        its.dropped[i] = static_cast<int>(c);
       }
       its.fault[i] = kLegal;
     }
   }
-  if (!extra) return;
-  of.added.assign(count, 0);
-  extra(samples_of(its.all), of.added);
-  for (std::size_t i = 0; i < count; ++i) of.total[i] += of.added[i];
 }
 
 /// Let critics say of all trajectories what they left open.
-void Dwb::complete(const Scene& scene, const Trajectories& all, Scores& scores) const {
-  if (scores.complete) return;
-  scores.complete = true;
-  const std::size_t count = all.size();
+void Dwb::complete(const Scene& scene, Buffers& its) const {
+  if (its.complete) return;
+  its.complete = true;
+  const std::size_t count = its.all.size();
   std::vector<Reason> fault(count, kLegal);
   const auto total = [&](std::size_t i) {
     double sum = 0;
     for (std::size_t c = 0; c < critics_.size(); ++c) {
-      if (scores.scale[c] != 0) sum += scores.raw[c * count + i] * scores.scale[c];
+      if (its.scale[c] != 0) sum += its.raw[c * count + i] * its.scale[c];
     }
-    return scores.added.empty() ? sum : sum + scores.added[i];
+    return sampled_.added.empty() ? sum : sum + sampled_.added[i];
   };
   for (std::size_t c = 0; c < critics_.size(); ++c) {
-    const std::span<double> raw(&scores.raw[c * count], count);
-    if (scores.scale[c] == 0 || !critics_[c].critic->complete(scene, all, raw, fault)) continue;
+    const std::span<double> raw(&its.raw[c * count], count);
+    if (its.scale[c] == 0 || !critics_[c].critic->complete(scene, its.all, raw, fault)) continue;
     for (std::size_t i = 0; i < count; ++i) {
       if (!fault[i]) continue;
-      if (!scores.why[i] || scores.dropped[i] > static_cast<int>(c)) {
-        scores.why[i] = fault[i];
-        scores.dropped[i] = static_cast<int>(c);
+      if (!its.why[i] || its.dropped[i] > static_cast<int>(c)) {
+        its.why[i] = fault[i];
+        its.dropped[i] = static_cast<int>(c);
       }
-      scores.total[i] = total(i);
+      its.total[i] = total(i);
       fault[i] = kLegal;
     }
   }
 }
 
 /// Check all poses of a trajectory.
-bool Dwb::passes(const Scene& scene, const Trajectories& all, std::size_t i) {
-  Reason& why = scores_.why[i];
-  for (std::size_t c = 0; !scores_.complete && c < critics_.size(); ++c) {
-    if (scores_.scale[c] == 0) continue;
-    why = critics_[c].critic->check_end(scene, all.end(i));
+bool Dwb::passes(const Scene& scene, Buffers& its, std::size_t i) const {
+  Reason& why = its.why[i];
+  for (std::size_t c = 0; !its.complete && c < critics_.size(); ++c) {
+    if (its.scale[c] == 0) continue;
+    why = critics_[c].critic->check_end(scene, its.all, i);
     if (!why) continue;
-    scores_.dropped[i] = static_cast<int>(c);
+    its.dropped[i] = static_cast<int>(c);
     return false;
   }
-  return all.walk(i, [&](Pose pose) {
+  return its.all.walk(i, [&](Pose pose) {
     for (std::size_t c = 0; c < critics_.size(); ++c) {
       const Weighted& it = critics_[c];
       if (it.scale == 0) continue;
       why = it.critic->check(scene, pose);
       if (!why) continue;
-      scores_.dropped[i] = static_cast<int>(c);
+      its.dropped[i] = static_cast<int>(c);
       return false;
     }
     return true;
@@ -238,25 +281,21 @@ bool Dwb::passes(const Scene& scene, const Trajectories& all, std::size_t i) {
 }
 
 /// The trajectory with the lowest total, of equal ones the first. Trajectories that cannot win by their totals are not
-/// checked pose by pose: DWB's short-circuit evaluation, applied to whole trajectories.
-std::optional<std::size_t> Dwb::best(const Scene& scene, Buffers& its) {
-  const std::vector<double>& total = scores_.total;
-  const auto may_win = [&](std::size_t i) {
-    return !scores_.why[i] && total[i] < std::numeric_limits<double>::infinity();
-  };
-  if (!options_.short_circuit) complete(scene, its.all, scores_);
+/// checked pose by pose: DWB's short-circuit evaluation, applied to whole trajectories. Nor are their ends: what
+/// critics leave open only makes trajectories illegal.
+std::optional<std::size_t> Dwb::best(const Scene& scene, Buffers& its) const {
+  const std::vector<double>& total = its.total;
+  const auto may_win = [&](std::size_t i) { return !its.why[i] && total[i] < std::numeric_limits<double>::infinity(); };
+  if (!options_.short_circuit) complete(scene, its);
   for (std::size_t i = 0; !options_.short_circuit && i < its.all.size(); ++i) {
-    if (may_win(i)) passes(scene, its.all, i);
+    if (may_win(i)) passes(scene, its, i);
   }
+  const double lowest = lowest_legal(its.all.size(), total.data(), its.why.data());
   std::optional<std::size_t> first;
-  double lowest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < its.all.size(); ++i) {
-    if (!(total[i] < lowest) || scores_.why[i]) continue;
-    lowest = total[i];
-    first = i;
+  for (std::size_t i = 0; !first && i < its.all.size(); ++i) {
+    if (total[i] == lowest && may_win(i)) first = i;
   }
-  if (!first || passes(scene, its.all, *first)) return first;
-  complete(scene, its.all, scores_);
+  if (!first || passes(scene, its, *first)) return first;
   its.order.clear();
   for (std::size_t i = 0; i < its.all.size(); ++i) {
     if (may_win(i)) its.order.push_back(i);
@@ -264,39 +303,40 @@ std::optional<std::size_t> Dwb::best(const Scene& scene, Buffers& its) {
   const auto worse = [&](std::size_t a, std::size_t b) { return total[a] != total[b] ? total[a] > total[b] : a > b; };
   std::ranges::make_heap(its.order, worse);
   for (; !its.order.empty(); its.order.pop_back()) {
-    if (passes(scene, its.all, its.order.front())) return its.order.front();
+    if (passes(scene, its, its.order.front())) return its.order.front();
     std::ranges::pop_heap(its.order, worse);
   }
   return std::nullopt;
 }
 
 Explanation Dwb::explain() const {
-  const std::size_t count = scores_.total.size();
   Explanation found;
+  if (!has_sampled_) return found;
+  Buffers its;
+  const Point robot{sampled_.scene.pose.x, sampled_.scene.pose.y};
+  its.path.take(sampled_.scene.costmap->frame(), robot, sampled_.path[0], std::span(sampled_.path).subspan(1),
+                options_.pruning);
+  const Scene scene = sample(its);
+  score(scene, its);
+  for (std::size_t i = 0; i < sampled_.added.size(); ++i) its.total[i] += sampled_.added[i];
+  const std::size_t count = its.all.size();
   if (count == 0) return found;
-  Trajectories all;
-  all.generate(options_.motion, sampled_.pose, sampled_.twist, sampled_.fastest);
-  EndCells ends;
-  ends.begin(sampled_.costmap->frame(), all);
-  Scene scene;
-  scene.costmap = sampled_.costmap;
-  scene.ends = &ends;
-  Scores scores = scores_;
-  complete(scene, all, scores);
-  Samples samples = samples_of(all);
+  best(scene, its);
+  complete(scene, its);
+  Samples samples = samples_of(its.all);
   found.arrays = {{"twist", std::move(samples.twist)},
                   {"pose", std::move(samples.pose)},
-                  {"score", {scores.raw, {critics_.size(), count}}},
-                  {"total", {scores.total, {count}}}};
+                  {"score", {its.raw, {critics_.size(), count}}},
+                  {"total", {its.total, {count}}}};
   for (const Weighted& it : critics_) found.words["critics"].push_back(it.name);
   std::vector<std::string>& reasons = found.words["reason"];
   for (std::size_t i = 0; i < count; ++i) {
-    const int critic = scores.dropped[i];
-    reasons.push_back(critic < 0 ? "" : critics_[static_cast<std::size_t>(critic)].name + ": " + scores.why[i]);
+    const int critic = its.dropped[i];
+    reasons.push_back(critic < 0 ? "" : critics_[static_cast<std::size_t>(critic)].name + ": " + its.why[i]);
   }
-  Array& cost = found.arrays["cost"] = {scores.total, {count}};
+  Array& cost = found.arrays["cost"] = {its.total, {count}};
   for (std::size_t i = 0; i < count; ++i) {
-    if (scores.why[i]) cost.values[i] = std::numeric_limits<double>::infinity();
+    if (its.why[i]) cost.values[i] = std::numeric_limits<double>::infinity();
   }
   if (!chosen_) return found;
   const auto& poses = found.arrays["pose"];
@@ -305,9 +345,9 @@ Explanation Dwb::explain() const {
   found.arrays["chosen"] = {{first, first + static_cast<std::ptrdiff_t>(size)}, {poses.shape[1], 3}};
   Array& chosen = found.arrays["chosen_score"];
   for (std::size_t c = 0; c < critics_.size(); ++c) {
-    chosen.values.push_back(scores.raw[c * count + *chosen_] * scores.scale[c]);
+    chosen.values.push_back(its.raw[c * count + *chosen_] * its.scale[c]);
   }
-  if (!scores.added.empty()) chosen.values.push_back(scores.added[*chosen_]);
+  if (!sampled_.added.empty()) chosen.values.push_back(sampled_.added[*chosen_]);
   chosen.shape = {chosen.values.size()};
   return found;
 }

@@ -1,8 +1,11 @@
 #include "mrpbench_local/dwb/trajectories.hpp"
 
 #include <algorithm>
-#include <array>
+#include <bit>
+#include <climits>
+#include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "mrpbench_common/wide.hpp"
 
@@ -10,17 +13,35 @@ namespace mrpbench::local {
 
 namespace {
 
+/// `from`: where the frame lies in which ends are given.
 MRPBENCH_WIDE bool find_cells(std::size_t count, const double* end_x, const double* end_y, const double* heading_x,
-                              const double* heading_y, double distance, Frame frame, int* x, int* y) {
-  frame.cells(
-      count, [&](std::size_t i) { return Point{end_x[i], end_y[i]} + Point{heading_x[i], heading_y[i]} * distance; },
-      [&](std::size_t i, Cell c) {
-        x[i] = c.x;
-        y[i] = c.y;
-      });
-  unsigned outside = 0;
-  for (std::size_t i = 0; i < count; ++i) outside |= frame.holds({x[i], y[i]}) ? 0u : 1u;
-  return outside == 0;
+                              const double* heading_y, double distance, Pose from, Frame frame, int* x, int* y,
+                              int* close) {
+  const double cosine = std::cos(from.yaw), sine = std::sin(from.yaw);
+  const auto put = [&](std::size_t i, Cell c, unsigned unsure) {
+    x[i] = c.x;
+    y[i] = c.y;
+    close[i] = static_cast<int>(unsure);
+  };
+  const auto ahead = [&](std::size_t i) {
+    return Point{end_x[i], end_y[i]} + Point{heading_x[i], heading_y[i]} * distance;
+  };
+  if (from == Pose{}) return frame.likely_cells(count, ahead, put);
+  const auto placed = [&](std::size_t i) {
+    const Point p = ahead(i);
+    return Point{from.x + (cosine * p.x - sine * p.y), from.y + (sine * p.x + cosine * p.y)};
+  };
+  return frame.likely_cells(count, placed, put);
+}
+
+/// The lowest and the highest column and row.
+MRPBENCH_WIDE std::pair<Cell, Cell> box(std::size_t count, const int* x, const int* y) {
+  Cell low{INT_MAX, INT_MAX}, high{INT_MIN, INT_MIN};
+  for (std::size_t i = 0; i < count; ++i) {
+    low = {std::min(low.x, x[i]), std::min(low.y, y[i])};
+    high = {std::max(high.x, x[i]), std::max(high.y, y[i])};
+  }
+  return {low, high};
 }
 
 }  // namespace
@@ -82,46 +103,127 @@ void Trajectories::generate(const MotionOptions& options, Pose start, Twist curr
   options_ = &options;
   start_ = start;
   current_ = current;
-  const double time = options.limited ? options.period : options.sim_time;
-  const double highest = std::max(options.min_vel_x, std::min(options.max_vel_x, fastest));
-  const auto speeds = samples(current.ahead, options.min_vel_x, highest, options.acc_lim_x, options.decel_lim_x, time,
-                              options.vx_samples);
-  const auto rates = samples(current.turn, -options.max_vel_theta, options.max_vel_theta, options.acc_lim_theta,
-                             options.decel_lim_theta, time, options.vtheta_samples);
-  const std::array columns{&ahead_, &turn_, &end_x_, &end_y_, &end_yaw_, &heading_x_, &heading_y_};
-  for (auto* it : columns) it->resize(speeds.size() * rates.size() + Turns::kBlock);
-  turns_.begin(start.yaw, options.limited ? std::nullopt : std::optional(current.turn), rates);
-  least_.resize(rates.size());
-  for (std::size_t i = 0; i < rates.size(); ++i) least_[i] = steps({0, rates[i]});
-  size_ = 0;
+  highest_ = std::max(options.min_vel_x, std::min(options.max_vel_x, fastest));
+  const Estimate& found = estimate();
+  ends_ = &found.ends;
+  if (!found.known) compute_ends();
+}
+
+/// The estimate of this state: one from before, or a new one in place of that which was not used for longest.
+Trajectories::Estimate& Trajectories::estimate() {
+  ++calls_;
+  const auto same = [](double a, double b) {
+    return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+  };
+  for (Estimate& it : estimates_) {
+    if (!same(it.current.ahead, current_.ahead) || !same(it.current.turn, current_.turn)) continue;
+    if (!same(it.highest, highest_) || it.options != *options_) continue;
+    it.used = calls_;
+    return it;
+  }
+  if (estimates_.size() < kMostEstimates) estimates_.emplace_back();
+  Estimate& oldest = *std::ranges::min_element(estimates_, {}, &Estimate::used);
+  oldest.options = *options_;
+  oldest.current = current_;
+  oldest.highest = highest_;
+  oldest.used = calls_;
+  sample();
+  oldest.known = may_estimate() && roll_out(false, {}, oldest.ends);
+  return oldest;
+}
+
+void Trajectories::compute_ends() const {
+  if (ends_ == &exact_) return;
+  ends_ = &exact_;
+  sample();
+  roll_out(true, start_, exact_);
+}
+
+/// The velocities that are sampled.
+void Trajectories::sample() const {
+  const MotionOptions& it = *options_;
+  const double time = it.limited ? it.period : it.sim_time;
+  speeds_ = samples(current_.ahead, it.min_vel_x, highest_, it.acc_lim_x, it.decel_lim_x, time, it.vx_samples);
+  rates_ = samples(current_.turn, -it.max_vel_theta, it.max_vel_theta, it.acc_lim_theta, it.decel_lim_theta, time,
+                   it.vtheta_samples);
+  least_.resize(rates_.size());
+  for (std::size_t i = 0; i < rates_.size(); ++i) least_[i] = steps({0, rates_[i]});
+}
+
+/// Tell whether estimates of all poses are right to a nanometre.
+bool Trajectories::may_estimate() const {
+  const double fastest = std::max({std::abs(current_.ahead), std::abs(speeds_.front()), std::abs(speeds_.back())});
+  const double turning = std::max({std::abs(current_.turn), std::abs(rates_.front()), std::abs(rates_.back())});
+  return fastest * options_->sim_time < 100 && turning * options_->sim_time < Turns::kMostTurn &&
+         steps_to_speeds() < Turns::kMostSteps;
+}
+
+/// The most steps that a trajectory takes to its speed.
+int Trajectories::steps_to_speeds() const {
+  if (options_->limited) return 0;
+  const double fastest = std::max(std::abs(speeds_.front()), std::abs(speeds_.back()));
+  const int most = std::max(steps({fastest, 0}), *std::ranges::max_element(least_));
+  const double change = std::max(std::abs(speeds_.front() - current_.ahead), std::abs(speeds_.back() - current_.ahead));
+  const double by = std::min(options_->acc_lim_x, -options_->decel_lim_x) * options_->sim_time / most;
+  return change < Turns::kMostSteps * by ? whole_below(change / by) + 2 : Turns::kMostSteps;
+}
+
+void Trajectories::begin(Turns& turns, double yaw, std::span<const double> rates) const {
+  turns.begin(yaw, options_->limited ? std::nullopt : std::optional(current_.turn), rates);
+}
+
+/// The last poses of all trajectories. Returns false if they cannot be estimated.
+bool Trajectories::roll_out(bool exact, Pose start, Ends& ends) const {
+  const MotionOptions& options = *options_;
+  const std::size_t columns = rates_.size();
+  for (auto* it : ends.columns()) it->resize(speeds_.size() * columns + Turns::kBlock);
+  begin(turns_, start.yaw, rates_);
+  std::size_t& size = ends.size = 0;
+  const int changing = exact ? 0 : steps_to_speeds();
   const double slack = std::numeric_limits<float>::epsilon();
-  for (const double v : speeds) {
+  for (const double v : speeds_) {
     const double speed = std::abs(v);
     if (options.max_speed_xy >= 0 && speed * speed > options.max_speed_xy * options.max_speed_xy + slack) continue;
-    turns_.step(least_, steps({v, 0}), options.sim_time, {options.acc_lim_theta, options.decel_lim_theta});
-    double *const x = &end_x_[size_], *const y = &end_y_[size_];
-    turns_.drive(options.limited ? v : current.ahead, v, {options.acc_lim_x, options.decel_lim_x}, x, y);
-    for (std::size_t i = 0; i < rates.size(); ++i) {
+    const int least = steps({v, 0});
+    if (exact) {
+      turns_.step(least_, least, options.sim_time, limits_turn());
+    } else if (!turns_.estimate(least_, least, options.sim_time, limits_turn(), changing)) {
+      return false;
+    }
+    double *const x = &ends.x[size], *const y = &ends.y[size];
+    turns_.drive(options.limited ? v : current_.ahead, v, limits_ahead(), x, y);
+    for (std::size_t i = 0; i < columns; ++i) {
       x[i] += start.x;
       y[i] += start.y;
     }
-    std::fill_n(&ahead_[size_], rates.size(), v);
-    std::ranges::copy(rates, &turn_[size_]);
-    std::copy_n(turns_.yaw(), rates.size(), &end_yaw_[size_]);
-    std::copy_n(turns_.heading_x(), rates.size(), &heading_x_[size_]);
-    std::copy_n(turns_.heading_y(), rates.size(), &heading_y_[size_]);
-    const std::size_t last = size_ + rates.size();
+    std::fill_n(&ends.ahead[size], columns, v);
+    std::ranges::copy(rates_, &ends.turn[size]);
+    std::copy_n(turns_.yaw(), columns, &ends.yaw[size]);
+    std::copy_n(turns_.heading_x(), columns, &ends.heading_x[size]);
+    std::copy_n(turns_.heading_y(), columns, &ends.heading_y[size]);
+    const std::size_t last = size + columns;
     if (speed > 0 && speed >= options.min_speed_xy) {
-      size_ = last;
+      size = last;
       continue;
     }
-    for (std::size_t i = size_; i < last; ++i) {
-      if (v == 0 && turn_[i] == 0) continue;
-      if (speed < options.min_speed_xy && std::abs(turn_[i]) < options.min_speed_theta) continue;
-      for (auto* it : columns) (*it)[size_] = (*it)[i];
-      ++size_;
+    for (std::size_t i = size; i < last; ++i) {
+      if (v == 0 && ends.turn[i] == 0) continue;
+      if (speed < options.min_speed_xy && std::abs(ends.turn[i]) < options.min_speed_theta) continue;
+      for (auto* it : ends.columns()) (*it)[size] = (*it)[i];
+      ++size;
     }
   }
+  return true;
+}
+
+/// The last pose of one trajectory, to the last bit as if all were computed.
+Pose Trajectories::end_of(Twist twist) const {
+  const int least = steps({0, twist.turn});
+  begin(turns_of_one_, start_.yaw, {&twist.turn, 1});
+  turns_of_one_.step({&least, 1}, steps({twist.ahead, 0}), options_->sim_time, limits_turn());
+  double x[Turns::kBlock], y[Turns::kBlock];
+  turns_of_one_.drive(options_->limited ? twist.ahead : current_.ahead, twist.ahead, limits_ahead(), x, y);
+  return {x[0] + start_.x, y[0] + start_.y, turns_of_one_.yaw()[0]};
 }
 
 Pose Trajectories::at(std::size_t i, double time) const {
@@ -137,11 +239,26 @@ Pose Trajectories::at(std::size_t i, double time) const {
   return found;
 }
 
-bool Trajectories::cells_ahead(const Frame& frame, double distance, std::vector<int>& x, std::vector<int>& y) const {
-  x.resize(size_);
-  y.resize(size_);
-  return find_cells(size_, end_x_.data(), end_y_.data(), heading_x_.data(), heading_y_.data(), distance, frame,
-                    x.data(), y.data());
+std::pair<Cell, Cell> Trajectories::cells_ahead(const Frame& frame, double distance, std::vector<int>& x,
+                                                std::vector<int>& y) const {
+  for (auto* it : {&x, &y, &close_}) it->resize(size());
+  const auto find = [&](Pose from) {
+    const Ends& it = *ends_;
+    return find_cells(it.size, it.x.data(), it.y.data(), it.heading_x.data(), it.heading_y.data(), distance, from,
+                      frame, x.data(), y.data(), close_.data());
+  };
+  bool sure = ends_ != &exact_ && find(start_);
+  if (!sure) {
+    compute_ends();
+    sure = find({});
+  }
+  for (std::size_t i = 0; !sure && i < size(); ++i) {
+    if (!close_[i]) continue;
+    const Cell c = frame.cell(Point{exact_.x[i], exact_.y[i]} + heading(i) * distance);
+    x[i] = c.x;
+    y[i] = c.y;
+  }
+  return box(size(), x.data(), y.data());
 }
 
 const EndCells::Cells& EndCells::ahead(double distance) {
@@ -151,18 +268,9 @@ const EndCells::Cells& EndCells::ahead(double distance) {
   if (count_ == found_.size()) found_.emplace_back();
   Cells& cells = found_[count_++];
   cells.distance = distance;
-  cells.inside = all_->cells_ahead(*frame_, distance, cells.x, cells.y);
+  std::tie(cells.low, cells.high) = all_->cells_ahead(*frame_, distance, cells.x, cells.y);
+  cells.inside = frame_->holds(cells.low) && frame_->holds(cells.high);
   return cells;
-}
-
-std::pair<Cell, Cell> EndCells::box(Cell with) {
-  const Cells& ends = ahead(0);
-  Cell low = with, high = with;
-  for (std::size_t i = 0; i < ends.x.size(); ++i) {
-    low = {std::min(low.x, ends.x[i]), std::min(low.y, ends.y[i])};
-    high = {std::max(high.x, ends.x[i]), std::max(high.y, ends.y[i])};
-  }
-  return {low, high};
 }
 
 }  // namespace mrpbench::local

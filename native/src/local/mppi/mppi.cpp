@@ -18,6 +18,8 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+/// Lower powers of e are less than half of the least number.
+constexpr float kLeastExponent = -104;
 /// Speeds at which the default of Nav2 reaches this many points of a path, 0.05 m apart.
 constexpr double kPointsWithinReach = 28;
 constexpr double kLeastSpacing = 0.001;  // metres between points of the path
@@ -62,10 +64,13 @@ Mppi::Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key,
 void Mppi::draw() {
   sim::Draws draws(key_.seed, key_.robot, drawn_++);
   const auto vx = static_cast<float>(options_.vx_std), wz = static_cast<float>(options_.wz_std);
-  for (std::size_t i = 0; i < noise_.vx.values.size(); ++i) {
-    const auto [a, b] = draws.normal();
-    noise_.vx.values[i] = static_cast<float>(a) * vx;
-    noise_.wz.values[i] = static_cast<float>(b) * wz;
+  for (std::size_t t = 0; t < noise_.vx.steps; ++t) {
+    float *const speeds = noise_.vx[t], *const rates = noise_.wz[t];
+    for (std::size_t k = 0; k < noise_.vx.samples; ++k) {
+      const auto [a, b] = draws.normal();
+      speeds[k] = static_cast<float>(a) * vx;
+      rates[k] = static_cast<float>(b) * wz;
+    }
   }
 }
 
@@ -219,7 +224,10 @@ bool Mppi::improve(const Extra& extra) {
   if (!(least < kInfinity)) return false;
   const auto sharpness = static_cast<float>(-1 / it.temperature);
   weight_.resize(samples);
-  for (std::size_t k = 0; k < samples; ++k) weight_[k] = std::exp((total_[k] - least) * sharpness);
+  for (std::size_t k = 0; k < samples; ++k) {
+    const float exponent = (total_[k] - least) * sharpness;
+    weight_[k] = exponent < kLeastExponent ? 0 : std::exp(exponent);
+  }
   const float per = 1 / sum(weight_.data(), samples);
   for (std::size_t t = 0; t < steps; ++t) {
     const auto [vx, wz] = controls(t);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "mrpbench_common/wide.hpp"
@@ -61,23 +62,28 @@ MRPBENCH_WIDE void take_step(std::size_t t, Follow ahead, Follow turn, float dt,
   const float *const from_x = out.x[t - 1], *const from_y = out.y[t - 1], *const from_yaw = out.yaw[t - 1];
   float *const vx = out.vx[t], *const wz = out.wz[t], *const x = out.x[t], *const y = out.y[t], *const yaw = out.yaw[t];
   float* const length = out.length.data();
-  MRPBENCH_NO_OVERLAP
-  for (std::size_t k = 0; k < count; ++k) {
-    const float wanted_vx = ahead.centre + ahead.noise[k], wanted_wz = turn.centre + turn.noise[k];
-    const bool forward = ahead.from[k] > 0;
-    const float up = forward ? ahead.up : ahead.down;
-    const float down = forward ? ahead.down : ahead.up;
-    const float speed = std::min(std::max(wanted_vx, ahead.from[k] - down), ahead.from[k] + up);
-    const float rate = std::min(std::max(wanted_wz, turn.from[k] - turn.down), turn.from[k] + turn.up);
-    vx[k] = speed;
-    wz[k] = rate;
-    float sine, cosine;
-    sine_cosine(from_yaw[k], sine, cosine);
-    const float step = speed * dt;
-    x[k] = from_x[k] + step * cosine;
-    y[k] = from_y[k] + step * sine;
-    yaw[k] = from_yaw[k] + rate * dt;
-    length[k] += std::abs(speed) * dt;
+  const auto each = [=](auto&& change) {
+    MRPBENCH_NO_OVERLAP
+    for (std::size_t k = 0; k < count; ++k) {
+      const float wanted_vx = ahead.centre + ahead.noise[k], wanted_wz = turn.centre + turn.noise[k];
+      const auto [up, down] = change(ahead.from[k]);
+      const float speed = std::min(std::max(wanted_vx, ahead.from[k] - down), ahead.from[k] + up);
+      const float rate = std::min(std::max(wanted_wz, turn.from[k] - turn.down), turn.from[k] + turn.up);
+      vx[k] = speed;
+      wz[k] = rate;
+      float sine, cosine;
+      sine_cosine(from_yaw[k], sine, cosine);
+      const float step = speed * dt;
+      x[k] = from_x[k] + step * cosine;
+      y[k] = from_y[k] + step * sine;
+      yaw[k] = from_yaw[k] + rate * dt;
+      length[k] += std::abs(step);
+    }
+  };
+  if (ahead.up == ahead.down) {
+    each([=](float) { return std::pair{ahead.up, ahead.up}; });
+  } else {
+    each([=](float from) { return std::pair{from > 0 ? ahead.up : ahead.down, from > 0 ? ahead.down : ahead.up}; });
   }
 }
 

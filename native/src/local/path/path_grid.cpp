@@ -14,7 +14,8 @@ constexpr std::int16_t kFar = 20000;
 
 }  // namespace
 
-void PathGrid::take(const Frame& frame, Point robot, Point first, std::span<const Point> rest, const Pruning& pruning) {
+std::size_t PathGrid::take(const Frame& frame, Point robot, Point first, std::span<const Point> rest,
+                           const Pruning& pruning) {
   cells_.clear();
   beyond_.clear();
   points_.clear();
@@ -34,7 +35,7 @@ void PathGrid::take(const Frame& frame, Point robot, Point first, std::span<cons
     goal_ = points_.back() = p;
     return true;
   };
-  if (!add(first)) return;
+  if (!add(first)) return 0;
   Point from = first;
   double way = 0;
   for (const Point& to : rest) {
@@ -43,7 +44,9 @@ void PathGrid::take(const Frame& frame, Point robot, Point first, std::span<cons
     const int count = std::max(1, static_cast<int>(std::ceil(length / frame.resolution)));
     way += length;
     for (int i = 1; i <= count; ++i) {
-      if (!add(i == count ? to : from + along * (static_cast<double>(i) / count))) return;
+      if (!add(i == count ? to : from + along * (static_cast<double>(i) / count))) {
+        return static_cast<std::size_t>(&to - rest.data()) + 1;
+      }
     }
     if (&to == &rest.back() && length > 0) {
       const Point ahead = along * (1 / length);
@@ -57,6 +60,7 @@ void PathGrid::take(const Frame& frame, Point robot, Point first, std::span<cons
     from = to;
   }
   left_ = way;
+  return rest.size();
 }
 
 /// Along rows first, for each of the few cells of the path, then along columns. To the window a cell above or below it
