@@ -2,6 +2,7 @@
 
 import logging
 import os
+from collections.abc import Callable
 from typing import Any
 
 import pluggy
@@ -28,6 +29,8 @@ class Hooks:
         self._manager.add_hookspecs(specifications)
         self._callers: dict[str, list[tuple[str, pluggy.HookCaller]]] = {}
         """By hook, the name of each plugin with what calls that plugin alone."""
+        self._functions: dict[str, list[tuple[str, Callable[..., Any], tuple[str, ...]]]] = {}
+        """By hook, the same as functions with the names of their arguments: they are called in each control period."""
         self._off: set[str] = set()
         self.refused: list[str] = []
         """Plugins that could not be registered."""
@@ -57,6 +60,11 @@ class Hooks:
             self._refuse(name, fault)
         for hook, callers in self._callers.items():
             self._callers[hook] = [(owner, self._alone(hook, owner)) for owner, _ in callers]
+            self._functions[hook] = [
+                (owner, implementation.function, tuple(implementation.argnames))
+                for owner, caller in self._callers[hook]
+                for implementation in reversed(caller.get_hookimpls())
+            ]
 
     def load(self, provider: Provider) -> None:
         """Import and register an installed plugin."""
@@ -74,11 +82,11 @@ class Hooks:
 
     def call(self, hook: str, **arguments: Any) -> None:
         """Call every implementation of `hook`, except of plugins that raised in this run."""
-        for name, caller in self._callers.get(hook, ()):
+        for name, function, names in self._functions.get(hook, ()):
             if name in self._off:
                 continue
             try:
-                caller(**arguments)
+                function(*[arguments[it] for it in names])
             except BaseException as error:  # noqa: BLE001 - calling a plugin runs its code
                 self._off.add(name)
                 LOG.warning("hook plugin %r is disabled for this run: %s: %s", name, hook, one_line(error))

@@ -43,13 +43,13 @@ class Visits:
         """Count goals.
 
         Args:
-            place: f8[n,2] metres, where robots truly are.
+            place: f8[n,2+] metres, where robots truly are.
             level: i2[n].
             reached: i4[n] segments of their paths that are reported as reached.
         """
         for robot, due in self._due.items():
             while self.count[robot] < len(due) and due[self.count[robot]] <= reached[robot]:
-                if not self._is_at(self._goals[robot][self.count[robot]], place[robot], level[robot]):
+                if not self._is_at(self._goals[robot][self.count[robot]], place[robot, :2], level[robot]):
                     break
                 self.count[robot] += 1
 

@@ -124,7 +124,7 @@ class BodySimulation(Simulation):
     def _take_scans(self) -> tuple[ScanBatch, ...]:
         stamp = self._periods * self._period
         return tuple(
-            ScanBatch(stamp=stamp, robot=np.array(robots), ranges=self.scan(lidar, robots))
+            ScanBatch(stamp=stamp, robot=robots, ranges=self.scan(lidar, robots))
             for lidar, robots in self._schedule.due(self._periods)
         )
 
