@@ -244,10 +244,13 @@ class ContractChecks:
         kind = "the navigator"
         self._one_each(kind, "reached", reached)
         self._one_each(kind, "cleared", cleared)
-        self._no_robot(kind, "reached less than before", reached < self._reached)
-        self._no_robot(kind, "reached what was not released", reached > self._released)
-        self._no_robot(kind, "cleared less than before", cleared < self._cleared)
-        self._no_robot(kind, "cleared what it had not come to", cleared > reached + 1)
+        less, unreleased = reached < self._reached, reached > self._released
+        back, unreached = cleared < self._cleared, cleared > reached + 1
+        if np.count_nonzero(less | unreleased | back | unreached):
+            self._no_robot(kind, "reached less than before", less)
+            self._no_robot(kind, "reached what was not released", unreleased)
+            self._no_robot(kind, "cleared less than before", back)
+            self._no_robot(kind, "cleared what it had not come to", unreached)
         self._reached, self._cleared = reached, cleared
 
     def _exist(self, groups: Any) -> bool:
