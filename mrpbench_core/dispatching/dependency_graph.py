@@ -284,9 +284,12 @@ class DependencyGraph:
         Raises:
             DispatchError: a move among them still waits for another robot.
         """
-        for robot, until in enumerate(committed.tolist()):
+        frontier, first = np.array(self.frontier), self.moves.first
+        waits = frontier < first[1:]
+        waits[waits] = self.moves.segment[frontier[waits]] < committed[waits]
+        for robot in waits.nonzero()[0].tolist():
             for move in range(self.frontier[robot], self.last[robot]):
-                if self.segment[move] >= until:
+                if self.segment[move] >= committed[robot]:
                     break
                 if self.unmet[self.group[move]]:
                     raise DispatchError(

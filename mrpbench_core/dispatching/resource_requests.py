@@ -30,7 +30,7 @@ class ResourceRequests:
             )
             for move in range(max(occupation.first, int(moves.first[occupation.robot])), stop):
                 self.needs.setdefault(move, {})[occupation.resource] = before
-        for coming in self._coming:
+        for coming in filter(None, self._coming):
             coming.sort(key=lambda occupation: occupation.first, reverse=True)  # the next is the last
         self._some = any(self._coming)
         self._open: list[ResourceOccupation] = []

@@ -73,6 +73,8 @@ class Visits:
         return f"robot {robot} did not come within {self._tolerance:g} m of goal {self.count[robot]} of its sequence"
 
     def _unfinished(self) -> list[int]:
+        if max(map(len, self._goals), default=0) < 2:
+            return []
         ahead = zip(self._goals, self.count.tolist(), strict=True)
         return [robot for robot, (goals, visited) in enumerate(ahead) if visited < len(goals) - 1]
 
