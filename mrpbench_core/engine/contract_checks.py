@@ -95,7 +95,8 @@ class ContractChecks:
         if before is None or (state.level is not before.level and not np.array_equal(state.level, before.level)):
             self._one_each(kind, "level", state.level)
             self._no_robot(kind, "a level that does not exist", (state.level < 0) | (state.level >= self._levels))
-        self._check_facilities(state.facilities)
+        if state.facilities or self._facilities or type(state.facilities) is not dict:
+            self._check_facilities(state.facilities)
         if len(state.contacts):
             self._check_contacts(state.contacts, state.contact_force)
         if before is not None and not close:
@@ -115,8 +116,6 @@ class ContractChecks:
         kind, before = "the simulator", self._before
         if not isinstance(states, Mapping):
             _refuse(kind, f"{type(states).__name__} instead of the state of doors and lifts")
-        if not (states or self._facilities):  # most worlds have none
-            return
         if (states and states.keys() != self._facilities) or (
             before is not None and states.keys() != before.facilities.keys()
         ):

@@ -76,8 +76,8 @@ class Arrivals:
             self._recorded = motion.reached
             return motion
         pose, twist = state.pose.take(at, 0), state.twist.take(at, 0)
-        seen = at, motion.mode, state.level, pose.tobytes(), twist.tobytes()
-        if not self._far and self._seen and all(map(is_, seen[:3], self._seen)) and seen[3:] == self._seen[3:]:
+        seen = motion.mode, state.level, at.tobytes(), pose.tobytes(), twist.tobytes()
+        if not self._far and self._seen and all(map(is_, seen[:2], self._seen)) and seen[2:] == self._seen[2:]:
             self._recorded = motion.reached
             return motion
         self._seen = seen

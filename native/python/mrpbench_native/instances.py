@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from types import ModuleType
-from typing import NamedTuple, Self
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -157,5 +157,5 @@ def _first(lengths: Iterable[int]) -> NDArray[np.int64]:
     return np.cumsum([0, *lengths], dtype="i8")
 
 
-def _joined(parts: Sequence[NDArray[np.generic]], dtype: str) -> NDArray[np.generic]:
+def _joined(parts: Sequence[NDArray[Any]], dtype: str) -> NDArray[Any]:
     return np.concatenate([np.empty(0, dtype), *parts]).astype(dtype)
