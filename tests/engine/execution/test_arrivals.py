@@ -1,4 +1,4 @@
-"""Robots have arrived when the navigator says so and their true poses agree, whatever was compared in the period before."""
+"""Robots have arrived when the navigator says so and their true poses agree, whatever was so in the period before."""
 
 import math
 
