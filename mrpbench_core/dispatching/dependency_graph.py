@@ -201,14 +201,15 @@ class DependencyGraph:
 
     def update(self, counts: Int, robots: Int) -> None:
         """Meet the dependencies on `robots` i8[k], given the counts i8[2,n] of leading segments, and release moves."""
-        ready = []
+        ready: list[int] = []
         keys, waiting, unmet, self._unmet_rows = self._keys, self._waiting, self.unmet, None
-        rows = np.add.outer(robots, np.array([REACHED, CLEARED]) * len(self.frontier)).ravel()
+        met, stride = self._met, self._stride
+        rows = np.stack([robots, robots + len(self.frontier)], axis=1).ravel()  # of REACHED and of CLEARED
         for row, value in zip(rows.tolist(), counts.ravel()[rows].tolist(), strict=True):
-            if value <= self._met[row]:
+            if value <= met[row]:
                 continue
-            self._met[row] = value
-            at, last = self._at[row], row * self._stride + value
+            met[row] = value
+            at, last = self._at[row], row * stride + value
             while keys[at] <= last:
                 group = waiting[at]
                 at += 1
@@ -216,6 +217,10 @@ class DependencyGraph:
                 if not unmet[group]:
                     ready.append(group)
             self._at[row] = at
+        if not self.rotations:
+            for move in ready:
+                self._advance(self.robot[move])
+            return
         self.rotating += [self.rotations[group] for group in ready if group in self.rotations]
         for group in ready:
             for move in self.rotations.get(group, (group,)):
@@ -223,6 +228,8 @@ class DependencyGraph:
 
     def in_step(self, reached: Int) -> tuple[tuple[tuple[int, int], ...], ...]:
         """The (robot, segment) pairs of each rotation under way, given the segments `reached` i8[n]."""
+        if not self.rotating:
+            return ()
         groups = [tuple((self.robot[move], self.segment[move]) for move in rotation) for rotation in self.rotating]
         going = [any(reached[robot] <= segment for robot, segment in group) for group in groups]
         self.rotating = [rotation for rotation, goes in zip(self.rotating, going, strict=True) if goes]
@@ -231,7 +238,8 @@ class DependencyGraph:
     def _advance(self, robot: int) -> None:
         self._unmet_rows = None
         move, last, needs = self.frontier[robot], self.last[robot], self.requests.needs
-        while move < last and not self.unmet[self.group[move]] and (not needs or self._may_use(robot, move)):
+        unmet, group = self.unmet, self.group
+        while move < last and not unmet[group[move]] and (not needs or self._may_use(robot, move)):
             move += 1
         self.frontier[robot] = move
         if move == last:
@@ -276,9 +284,12 @@ class DependencyGraph:
         Raises:
             DispatchError: a move among them still waits for another robot.
         """
-        for robot, until in enumerate(committed.tolist()):
+        frontier, first = np.array(self.frontier), self.moves.first
+        waits = frontier < first[1:]
+        waits[waits] = self.moves.segment[frontier[waits]] < committed[waits]
+        for robot in waits.nonzero()[0].tolist():
             for move in range(self.frontier[robot], self.last[robot]):
-                if self.segment[move] >= until:
+                if self.segment[move] >= committed[robot]:
                     break
                 if self.unmet[self.group[move]]:
                     raise DispatchError(

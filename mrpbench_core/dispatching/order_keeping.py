@@ -11,7 +11,7 @@ from mrpbench_core.api import Dispatcher, DispatchError, DispatcherSession, opti
 from mrpbench_core.checking.plan import check_plan
 from mrpbench_core.dispatching.dependency_graph import REACHED, DependencyGraph
 from mrpbench_core.dispatching.speed_profiles import PERIOD, SpeedProfiles
-from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32, frozen_array
+from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32, read_only
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
@@ -145,8 +145,11 @@ class OrderKeepingSession(DispatcherSession):
         if view.reached is self._view_counts[0] and view.cleared is self._view_counts[1]:
             return self.counts, _NOBODY
         self._view_counts = view.reached, view.cleared
-        counts = np.maximum(self.counts, self._view_counts)
-        return counts, (counts != self.counts).any(axis=0).nonzero()[0]
+        counts = self.counts.copy()
+        for known, told in zip(counts, self._view_counts, strict=True):
+            np.maximum(known, told, out=known)
+        reached, cleared = counts != self.counts
+        return counts, (reached | cleared).nonzero()[0]
 
     def _orders(self, view: FleetView, counts: Int, changed: Int) -> Orders:
         if len(changed):
@@ -162,8 +165,8 @@ class OrderKeepingSession(DispatcherSession):
         return Orders(released=self.released, requests=requests, in_step=in_step, speed=self._speed)
 
     def _release(self) -> None:
-        ahead = (self.counts[REACHED] + 1 + self.options.lookahead).astype(np.int32)
-        self.released = frozen_array(np.maximum(self.released, np.minimum(self.graph.released, ahead)), "i4")
+        ahead = (self.counts[REACHED] + (1 + self.options.lookahead)).astype(np.int32)
+        self.released = read_only(np.maximum(self.released, np.minimum(self.graph.released, ahead)))
 
 
 def _differing(old: Paths, new: Paths) -> list[int]:

@@ -30,8 +30,9 @@ class ResourceRequests:
             )
             for move in range(max(occupation.first, int(moves.first[occupation.robot])), stop):
                 self.needs.setdefault(move, {})[occupation.resource] = before
-        for coming in self._coming:
+        for coming in filter(None, self._coming):
             coming.sort(key=lambda occupation: occupation.first, reverse=True)  # the next is the last
+        self._some = any(self._coming)
         self._open: list[ResourceOccupation] = []
         """The longest requested first."""
 
@@ -43,7 +44,7 @@ class ResourceRequests:
 
     def __bool__(self) -> bool:
         """Tell whether any robot needs a resource, now or later."""
-        return bool(self._open) or any(self._coming)
+        return self._some and (bool(self._open) or any(self._coming))
 
     def update(self, reached: Int, cleared: Int, frontier: Sequence[int], ready: Iterable[int]) -> None:
         """Release and request resources.

@@ -14,7 +14,7 @@ from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
 from mrpbench_core.checking.covariances import check_covariances
 from mrpbench_core.checking.recording import LARGEST, axis_of, check_channel, check_names
-from mrpbench_core.model.common.arrays import Float, Int, Int16, Int32, frozen_array
+from mrpbench_core.model.common.arrays import Byte, Float, Int, Int16, Int32, frozen_array
 from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.observation import Estimate, ScanBatch
 from mrpbench_core.model.execution.orders import BatchOrders, Orders
@@ -27,6 +27,8 @@ T = TypeVar("T")
 _LAST_MODE = int(max(Mode))
 _TURN = 7.0
 """Radians by which a yaw may change without a closer look; more than a whole turn, since it may be wrapped."""
+_MOST_KNOWN = 256
+"""Arrays of indices that are remembered."""
 EARLY = 1e-6
 """Seconds by which a scan may be ahead of the clock, because times are rounded."""
 
@@ -57,6 +59,8 @@ class ContractChecks:
         self._levels, self._facilities, self._beams = levels, frozenset(facilities), beams
         self._scanned = -np.inf
         """Time of the last scan."""
+        self._scanning: dict[tuple[int, int], Int32] = {}
+        """Indices i4[k] of robots that scanned, by the identity of the array and their number of beams."""
         self._reach = np.inf if reach is None else reach
         self._box = np.full((len(length), 3), _TURN)
         """f8[n,3]: robots whose poses change by no more have finite poses, and are where they can be."""
@@ -68,6 +72,7 @@ class ContractChecks:
         self._robots, self._movers = len(length), movers
         nothing: Int32 = np.zeros(self._robots, np.int32)
         self._released = self._reached = self._cleared = nothing
+        self._mode: Byte | None = None
         self._least: Int = np.zeros((1, self._robots), np.int64)
         """What `batch` orders must release at least."""
         self._limits_speed: bool | None = None
@@ -90,7 +95,8 @@ class ContractChecks:
         if before is None or (state.level is not before.level and not np.array_equal(state.level, before.level)):
             self._one_each(kind, "level", state.level)
             self._no_robot(kind, "a level that does not exist", (state.level < 0) | (state.level >= self._levels))
-        self._check_facilities(state.facilities)
+        if state.facilities or self._facilities or type(state.facilities) is not dict:
+            self._check_facilities(state.facilities)
         if len(state.contacts):
             self._check_contacts(state.contacts, state.contact_force)
         if before is not None and not close:
@@ -110,8 +116,6 @@ class ContractChecks:
         kind, before = "the simulator", self._before
         if not isinstance(states, Mapping):
             _refuse(kind, f"{type(states).__name__} instead of the state of doors and lifts")
-        if not (states or self._facilities):  # most worlds have none
-            return
         if (states and states.keys() != self._facilities) or (
             before is not None and states.keys() != before.facilities.keys()
         ):
@@ -129,7 +133,7 @@ class ContractChecks:
             _refuse("the simulator", f"forces of shape {np.shape(force)} for {len(one)} contacts")
 
     def scans(self, batches: Sequence[ScanBatch], now: float) -> tuple[ScanBatch, ...]:
-        """Check the scans that a simulator returns at `now`."""
+        """Check the scans that a simulator returns at `now`; indices of robots cannot change and are checked once."""
         if not isinstance(batches, tuple | list):
             _refuse("the simulator", f"{type(batches).__name__} instead of scans")
         for batch in batches:
@@ -141,13 +145,21 @@ class ContractChecks:
             self._scanned = batch.stamp
             if batch.robot.ndim != 1 or batch.ranges.ndim != 2 or len(batch.robot) != len(batch.ranges):
                 _refuse("the simulator", f"ranges of shape {batch.ranges.shape} for robots {batch.robot.tolist()}")
-            if np.count_nonzero(batch.robot.astype(np.uint64) >= self._robots):  # as negative numbers are then
-                _refuse("the simulator", "a scan of a robot that does not exist")
             if np.count_nonzero(batch.ranges >= 0) < batch.ranges.size:
                 _refuse("the simulator", "ranges that are negative or no numbers")
-            if self._beams is not None and np.count_nonzero(self._beams[batch.robot] != batch.ranges.shape[1]):
-                _refuse("the simulator", f"scans of {batch.ranges.shape[1]} beams by robots that have other lidars")
+            key = id(batch.robot), batch.ranges.shape[1]
+            if key not in self._scanning:
+                self._check_scanning(batch.robot, batch.ranges.shape[1])
+                if len(self._scanning) >= _MOST_KNOWN:
+                    self._scanning.clear()
+                self._scanning[key] = batch.robot
         return tuple(batches)
+
+    def _check_scanning(self, robots: Int32, beams: int) -> None:
+        if np.count_nonzero(robots.astype(np.uint64) >= self._robots):  # as negative numbers are then
+            _refuse("the simulator", "a scan of a robot that does not exist")
+        if self._beams is not None and np.count_nonzero(self._beams[robots] != beams):
+            _refuse("the simulator", f"scans of {beams} beams by robots that have other lidars")
 
     def estimate(self, estimate: Estimate) -> Estimate:
         """Check the estimate that a localizer returns."""
@@ -162,6 +174,8 @@ class ContractChecks:
 
     def maps(self, changes: Chunk) -> Chunk:
         """Check what a localizer says about its maps."""
+        if type(changes) is dict and not changes:  # as in nearly every control period
+            return changes
         faults: list[str | None] = [f"has {name}" for name in changes if axis_of(name) != "map_time"]
         faults += check_names(changes) if not faults else []
         faults += [check_channel(*row, changes["map_time"], self._robots) for row in changes.items() if not faults]
@@ -218,8 +232,10 @@ class ContractChecks:
         self._finite(kind, "twist", motion.twist)
         if motion.reached is not self._reached or motion.cleared is not self._cleared:
             self._check_progress(motion.reached, motion.cleared)
-        self._one_each(kind, "mode", motion.mode)
-        self._no_robot(kind, "a mode that does not exist", motion.mode > _LAST_MODE)
+        if motion.mode is not self._mode:
+            self._one_each(kind, "mode", motion.mode)
+            self._no_robot(kind, "a mode that does not exist", motion.mode > _LAST_MODE)
+            self._mode = motion.mode
         return motion
 
     def _check_progress(self, reached: Int32, cleared: Int32) -> None:
@@ -227,10 +243,13 @@ class ContractChecks:
         kind = "the navigator"
         self._one_each(kind, "reached", reached)
         self._one_each(kind, "cleared", cleared)
-        self._no_robot(kind, "reached less than before", reached < self._reached)
-        self._no_robot(kind, "reached what was not released", reached > self._released)
-        self._no_robot(kind, "cleared less than before", cleared < self._cleared)
-        self._no_robot(kind, "cleared what it had not come to", cleared > reached + 1)
+        less, unreleased = reached < self._reached, reached > self._released
+        back, unreached = cleared < self._cleared, cleared > reached + 1
+        if np.count_nonzero(less | unreleased | back | unreached):
+            self._no_robot(kind, "reached less than before", less)
+            self._no_robot(kind, "reached what was not released", unreleased)
+            self._no_robot(kind, "cleared less than before", back)
+            self._no_robot(kind, "cleared what it had not come to", unreached)
         self._reached, self._cleared = reached, cleared
 
     def _exist(self, groups: Any) -> bool:

@@ -2,6 +2,7 @@
 
 import logging
 import os
+from collections.abc import Callable
 from typing import Any
 
 import pluggy
@@ -26,8 +27,8 @@ class Hooks:
     def __init__(self) -> None:
         self._manager = pluggy.PluginManager("mrpbench")
         self._manager.add_hookspecs(specifications)
-        self._callers: dict[str, list[tuple[str, pluggy.HookCaller]]] = {}
-        """By hook, the name of each plugin with what calls that plugin alone."""
+        self._functions: dict[str, list[tuple[str, Callable[..., Any], tuple[str, ...]]]] = {}
+        """By hook, the name of each plugin, its function and the names of the arguments that this takes."""
         self._off: set[str] = set()
         self.refused: list[str] = []
         """Plugins that could not be registered."""
@@ -50,13 +51,15 @@ class Hooks:
             fault = one_line(error)
         if fault is None:
             for caller in self._manager.get_hookcallers(plugin) or []:
-                self._callers.setdefault(caller.name, []).append((name, caller))
+                self._functions.setdefault(caller.name, []).extend(
+                    (name, implementation.function, tuple(implementation.argnames))
+                    for implementation in caller.get_hookimpls()
+                    if implementation.plugin is plugin
+                )
         else:
             if self._manager.has_plugin(name):
                 self._manager.unregister(name=name)
             self._refuse(name, fault)
-        for hook, callers in self._callers.items():
-            self._callers[hook] = [(owner, self._alone(hook, owner)) for owner, _ in callers]
 
     def load(self, provider: Provider) -> None:
         """Import and register an installed plugin."""
@@ -70,24 +73,24 @@ class Hooks:
 
     def has(self, hook: str) -> bool:
         """Tell whether any plugin implements `hook`."""
-        return hook in self._callers
+        return hook in self._functions
 
     def call(self, hook: str, **arguments: Any) -> None:
         """Call every implementation of `hook`, except of plugins that raised in this run."""
-        for name, caller in self._callers.get(hook, ()):
+        for name, function, names in self._functions.get(hook, ()):
             if name in self._off:
                 continue
             try:
-                caller(**arguments)
+                function(*[arguments[it] for it in names])
             except BaseException as error:  # noqa: BLE001 - calling a plugin runs its code
                 self._off.add(name)
                 LOG.warning("hook plugin %r is disabled for this run: %s: %s", name, hook, one_line(error))
 
     def check(self) -> None:
         """Log what each plugin says that keeps it from working, before any run."""
-        for name, caller in self._callers.get("mrpbench_check", ()):
+        for name, function, _ in self._functions.get("mrpbench_check", ()):
             try:
-                said = " ".join(" ".join(map(str, caller()))[:LONGEST].split())
+                said = " ".join(str(function() or "")[:LONGEST].split())
             except BaseException as error:  # noqa: BLE001 - calling a plugin runs its code
                 said = f"mrpbench_check: {one_line(error)}"
             if said:
@@ -103,10 +106,6 @@ class Hooks:
             if any(implementation.hookwrapper or implementation.wrapper for implementation in caller.get_hookimpls()):
                 return f"{caller.name} is a wrapper; hooks only observe"
         return None if callers else "it implements no hook; mark functions with mrpbench_core.api.hookimpl"
-
-    def _alone(self, hook: str, name: str) -> pluggy.HookCaller:
-        others = [plugin for owner, plugin in self._manager.list_name_plugin() if owner != name]
-        return self._manager.subset_hook_caller(hook, others)
 
     def _refuse(self, name: str, reason: str) -> None:
         self.refused.append(name)

@@ -26,6 +26,9 @@ using namespace mrpbench::sim;
 
 namespace {
 
+/// An array that a function writes into.
+template <int columns>
+using Written = nb::ndarray<double, nb::shape<-1, columns>, nb::c_contig, nb::device::cpu>;
 template <class T>
 using Output = nb::ndarray<nb::numpy, T>;
 
@@ -73,6 +76,16 @@ void step(Plane& self, const Matrix<2>& twist, const std::optional<Matrix<2>>& m
   const auto places = movers ? rows<Point>(*movers) : std::span<const Point>{};
   const nb::gil_scoped_release release;
   self.step(rows<Twist>(twist), places);
+}
+
+/// Write where robots are, and how fast they drive, into arrays; tell how many contacts there were.
+std::size_t observe(const Plane& self, const Written<3>& pose, const Written<2>& twist) {
+  const auto& poses = self.poses();
+  const auto& twists = self.twists();
+  require(pose.shape(0) == poses.size() && twist.shape(0) == poses.size(), "one row for each robot");
+  std::ranges::copy(poses, reinterpret_cast<Pose*>(pose.data()));
+  std::ranges::copy(twists, reinterpret_cast<Twist*>(twist.data()));
+  return self.touches().size();
 }
 
 Output<double> scan(const Caster& self, const Vector<std::int32_t>& robots, const Matrix<3>& pose,
@@ -146,6 +159,7 @@ NB_MODULE(sim, module) {
       .def("__init__", &construct_plane, nb::kw_only(), "segments"_a, "robots"_a, "movers"_a, "period"_a, "noise"_a,
            "seed"_a)
       .def("step", &step, "twist"_a, "movers"_a = nb::none())
+      .def("observe", &observe, "pose"_a.noconvert(), "twist"_a.noconvert())
       .def(
           "set_leaves", [](Plane& self, const Matrix<4>& segments) { self.set_leaves(rows<Segment>(segments)); },
           "segments"_a)

@@ -149,9 +149,7 @@ class _Plane(Simulation):
         """Scans due now."""
         stamp = self._periods * self._period
         return tuple(
-            ScanBatch(
-                stamp=stamp, robot=np.array(robots), ranges=np.array([self._scan(lidar, robot) for robot in robots])
-            )
+            ScanBatch(stamp=stamp, robot=robots, ranges=np.array([self._scan(lidar, robot) for robot in robots]))
             for lidar, robots in self._schedule.due(self._periods)
         )
 

@@ -1,6 +1,7 @@
 """Which robots have arrived: what the navigator reports counts only where the true poses agree."""
 
 from collections.abc import Sequence
+from operator import is_
 
 import attrs
 import numpy as np
@@ -27,10 +28,14 @@ class Arrivals:
     def __init__(self, routes: Sequence[Route], tolerance: float) -> None:
         self._tolerance = tolerance
         self._rests_since = np.full(len(routes), np.inf)
+        """f8[n]: since when robots that have reached all of their routes rest, as far as it is known."""
+        self._nobody: Bool = np.zeros(len(routes), bool)
+        self._far = False
+        """Whether a robot is reported to be where it is not."""
         self._recorded: Int32 = np.zeros(len(routes), np.int32)
         self.away: Float = np.full(len(routes), np.inf)
         """f8[n] metres from the goal, inf on another level or before any robot is reported to be there."""
-        self.claimed: Bool = np.zeros(len(routes), bool)
+        self.claimed: Bool = self._nobody
         """bool[n]: the robot is reported to have arrived."""
         self.arrived: Bool = self.claimed
         """bool[n]: the robot is reported to have arrived, is at its goal, and rests."""
@@ -46,12 +51,12 @@ class Arrivals:
             cut: i4[n] segments that they leave out.
             leads: bool[n]: the route ends where its robot arrives.
         """
-        self._level_of: Int16 | None = None
-        """The levels in the control period before; robots `_elsewhere` i8[k] were not on the level of their goal."""
-        self._elsewhere: Int = np.zeros(0, np.int64)
         self._reached: Int32 | None = None
-        """The progress in the control period before; `_finished` bool[n] were those who had reached all, if `_some`."""
-        self._finished, self._some = self.claimed, False
+        """The progress in the control period before."""
+        self._finished: Int = np.zeros(0, np.int64)
+        """i8[k]: robots that had reached all of their routes then."""
+        self._seen: tuple[object, ...] = ()
+        """What the last result followed from, if it follows from the same again."""
         self._leads = leads
         self._recorded = np.maximum(self._recorded - cut, 0).astype(np.int32)
         self._last: Int = last_moves(routes)
@@ -62,30 +67,37 @@ class Arrivals:
     def update(self, now: float, state: State, motion: Motion) -> Motion:
         """Compare a report at `now` with the true state; return the report with confirmed arrivals only."""
         if motion.reached is not self._reached:
-            self._reached, self._finished = motion.reached, motion.reached >= self._last
-            self._some = bool(np.count_nonzero(self._finished))
-        finished = self._finished
-        if not self._some:
-            self.claimed = self.arrived = self.mistaken = finished
-            self._rests_since[:] = np.inf
+            self._reached, self._finished = motion.reached, (motion.reached >= self._last).nonzero()[0]
+        at = self._finished
+        if not len(at):
+            if self._seen or self.claimed is not self._nobody:
+                self.claimed = self.arrived = self.mistaken = self._nobody
+                self._rests_since[:], self._seen = np.inf, ()
             self._recorded = motion.reached
             return motion
+        pose, twist = state.pose.take(at, 0), state.twist.take(at, 0)
+        seen = motion.mode, state.level, at.tobytes(), pose.tobytes(), twist.tobytes()
+        if not self._far and self._seen and all(map(is_, seen[:2], self._seen)) and seen[2:] == self._seen[2:]:
+            self._recorded = motion.reached
+            return motion
+        self._seen = seen
+        return self._compare(now, state, motion)
+
+    def _compare(self, now: float, state: State, motion: Motion) -> Motion:
+        """Compare a report by which some robots have reached all of their routes."""
+        finished: Bool = motion.reached >= self._last
         slow = np.abs(state.twist) < REST
-        resting = slow[:, 0] & slow[:, 1]
+        resting = finished & slow[:, 0] & slow[:, 1]
         np.minimum(self._rests_since, now, out=self._rests_since)
         self._rests_since[~resting] = np.inf
         offset = state.pose[:, :2] - self._goal
         self.away = np.hypot(offset[:, 0], offset[:, 1])
-        if state.level is not self._level_of:
-            self._level_of, self._elsewhere = state.level, np.flatnonzero(state.level != self._level)
-        self.away[self._elsewhere] = np.inf
+        self.away[state.level != self._level] = np.inf
         near = self.away <= self._tolerance
         self.claimed = finished & (motion.mode == Mode.WAITING)
         self.arrived = self.claimed & near & resting & self._leads
         far = finished & ~near
-        if not np.count_nonzero(far):
-            self.mistaken, self._recorded = far, motion.reached
-            return motion
+        self._far = bool(np.count_nonzero(far))
         self.mistaken = self.claimed & far & (now - self._rests_since >= SETTLING_S)
         early = far & (self._last > 0)
         if not np.count_nonzero(early):

@@ -43,6 +43,7 @@ class ControlLoop(ABC):
     ) -> None:
         self._period, self._limit_s = period, limit_s
         self._faults, self._delays, self._recorder = faults, delays, recorder
+        self._disturbed = bool(delays) or bool(faults)
         self._step = 0
         self._now = 0.0
         """Simulated seconds at the beginning of this control period."""
@@ -69,11 +70,12 @@ class ControlLoop(ABC):
 
     def _begin(self) -> None:
         """Let faults and stops begin and end; record them and the contacts of the last control period, by time."""
-        begun, faults = self._delays.begun(self._now), self._faults.update(self._now)
-        if self._recorder is not None:
-            self._recorder.events(sorted((*begun, *faults), key=lambda event: event.stamp))
-            if self._step:
-                self._recorder.contacts(self._now, self._state)
+        if self._disturbed:
+            begun, faults = self._delays.begun(self._now), self._faults.update(self._now)
+            if self._recorder is not None:
+                self._recorder.events(sorted((*begun, *faults), key=lambda event: event.stamp))
+        if self._recorder is not None and self._step:
+            self._recorder.contacts(self._now, self._state)
 
     def _sense(self) -> None:  # noqa: B027 - without physics there is nothing to sense
         """Take in what sensors and localizers say."""

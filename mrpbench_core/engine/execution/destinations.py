@@ -105,8 +105,10 @@ class Places:
             if way:
                 last = way[-1]
                 taken.add(last.robot, place)
-                chosen[last.robot] = tuple((errand.task, errand.number) for errand in way)
-                before = (tuple(errand.yaws)[: None if self._sets else 1] for errand in way[:-1])
+                chosen[last.robot] = tuple([(errand.task, errand.number) for errand in way])
+                before = (
+                    [tuple(errand.yaws)[: None if self._sets else 1] for errand in way[:-1]] if len(way) > 1 else ()
+                )
                 goals[last.robot] = (*before, (place,))
                 yaw[last.robot] = last.yaws[place]
                 if self._sets and len(last.yaws) > 1 and len(set(map(str, last.yaws.values()))) == 1:

@@ -129,9 +129,14 @@ class FailureReasons:
             for holder in self.holders.get(name, ())
         ]
         if (ends := self._next_move(robot)) is not None:
-            gap = point_segment_distance(self.pose[:, :2], *ends)
-            near = gap < self.problem.radius + self.problem.radius[robot]
-            others += np.flatnonzero(near)[np.argsort(gap[near], kind="stable")].tolist()
+            radius = self.problem.radius
+            reach = radius.max() + radius[robot]
+            low, high = ends.min(axis=0) - reach, ends.max(axis=0) + reach
+            x, y = self.pose[:, 0], self.pose[:, 1]
+            some = ((x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1])).nonzero()[0]
+            gap = point_segment_distance(self.pose[some, :2], *ends)
+            near = gap < radius[some] + radius[robot]
+            others += some[near][np.argsort(gap[near], kind="stable")].tolist()
         awaited = self.dispatcher_waits_for(robot)
         others += self._due_before(robot) if awaited is None else awaited
         return [other for other in dict.fromkeys(others) if other != robot]

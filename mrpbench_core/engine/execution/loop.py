@@ -1,6 +1,7 @@
 """Executes a plan with physics: a simulator moves the robots, localizers and a navigator sense and drive."""
 
 from collections.abc import Sequence
+from operator import is_
 
 import attrs
 import numpy as np
@@ -23,7 +24,7 @@ from mrpbench_core.engine.execution.recorder import Recorder, Sample
 from mrpbench_core.engine.execution.replanning import Revision
 from mrpbench_core.engine.execution.standstill import Standstill
 from mrpbench_core.engine.execution.visits import Visits
-from mrpbench_core.model.common.arrays import Bool
+from mrpbench_core.model.common.arrays import Bool, Byte
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.movers import FASTEST
 from mrpbench_core.model.execution.observation import FleetObservation
@@ -89,12 +90,19 @@ class ExecutionLoop(ControlLoop):
         self._navigator = check_returned(navigator, navigating, NavigatorSession)
         self._facility_manager = FacilityManager(context.world, context.problem, plan)
         self._arrivals = Arrivals(context.routes, inputs.goal_tolerance)
+        self._needs_truth = inputs.components.needs_truth
         sets = Feature.GOAL_SETS in inputs.replanner.supports
         self._visits = Visits(context.problem, plan, inputs.goal_tolerance)
         self._reactions = Reactions(inputs.faults, robots, inputs.replanner.yaw, sets)
+        self._may_replan = inputs.tasks is not None or bool(inputs.faults) or inputs.replanner.interval > 0
+        """Whether a new plan may be needed without a dispatcher that asks for one."""
         self._standstill = Standstill(_patience(inputs), len(inputs.replanner.problem))
         self._routes: Sequence[Route] = context.routes
         self._returned = self._orders = Orders(released=np.zeros(robots, "i4"))
+        self._done: tuple[Bool, Bool, Bool] | None = None
+        """What `_all_done` has seen last of a batch in which not all robots have arrived."""
+        self._mode: Byte | None = None
+        """The modes of which `_gave_up` bool[n] tells who gave up."""
         self._motion = Motion(
             twist=np.zeros((robots, 2)),
             reached=np.zeros(robots, "i4"),
@@ -109,11 +117,12 @@ class ExecutionLoop(ControlLoop):
     def _sense(self) -> None:
         inputs, state = self._inputs, self._state
         odometry = inputs.noise.odometry(state)
-        scans = inputs.faults.scans(inputs.noise.scans(self._checks.scans(inputs.simulation.scans(), self._now)))
-        truth = state.pose if inputs.components.needs_truth else None
+        scans = self._checks.scans(inputs.simulation.scans(), self._now)
+        if scans:
+            scans = inputs.faults.scans(inputs.noise.scans(scans))
+        truth = state.pose if self._needs_truth else None
         estimate = self._checks.estimate(self._localizer.update(self._now, odometry, scans, truth))
-        level = state.level
-        self._observation = FleetObservation(estimate=estimate, odometry=odometry, level=level, scans=scans)
+        self._observation = FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
 
     def _dispatch(self) -> None:
         """Release segments and grant resources; ask for a new plan, and adopt one that is due.
@@ -132,8 +141,9 @@ class ExecutionLoop(ControlLoop):
         view = self._facility_manager.with_grants(self._inputs.faults.reported_view(view), self._state)
         if replanner.pending is None:
             self._ask_dispatcher(view)
-            self._replan(view)
-        if (revision := replanner.take_due(now)) and self._adopt(revision):
+            if self._may_replan or self._orders.replan:
+                self._replan(view)
+        if replanner.pending is not None and (revision := replanner.take_due(now)) and self._adopt(revision):
             reached, cleared = self._motion.reached, self._motion.cleared
             now_counted = attrs.evolve(view, revision=self._revision, reached=reached, cleared=cleared)
             view = self._inputs.faults.reported_view(now_counted)
@@ -216,8 +226,10 @@ class ExecutionLoop(ControlLoop):
     def _result(self) -> ExecutionResult | None:
         arrivals = self._arrivals
         self._confirmed = arrivals.update(self._now, self._state, self._motion)
-        self._visits.update(self._state.pose[:, :2], self._state.level, self._motion.reached)
-        gave_up = self._motion.mode == ABORTED
+        self._visits.update(self._state.pose, self._state.level, self._motion.reached)
+        if self._motion.mode is not self._mode:
+            self._mode, self._gave_up = self._motion.mode, self._motion.mode == ABORTED
+        gave_up = self._gave_up
         self._inputs.progress(self._now, arrivals.arrived)
         tasks, over = self._inputs.tasks, self._now >= self._limit_s
         if tasks is not None:
@@ -249,12 +261,18 @@ class ExecutionLoop(ControlLoop):
     def _all_done(self, gave_up: Bool) -> bool:
         """Tell whether each robot of a batch has arrived, or will not."""
         arrivals, reactions, faults = self._arrivals, self._reactions, self._inputs.faults
+        seen = arrivals.arrived, arrivals.mistaken, gave_up
+        if self._done is not None and all(map(is_, seen, self._done)):
+            return False
         done = arrivals.arrived | arrivals.mistaken
         if faults:
             done &= ~reactions.astray
             done |= faults.lost | reactions.given_up | (reactions.cut_off & faults.final)
         done |= gave_up
-        return int(np.count_nonzero(done)) == len(done)
+        if int(np.count_nonzero(done)) == len(done):
+            return True
+        self._done = None if faults else seen
+        return False
 
     def _stands_still(self) -> bool:
         """Tell whether nothing goes on any more because of faults that do not end."""
@@ -299,10 +317,11 @@ class ExecutionLoop(ControlLoop):
         recorder.maps(self._checks.maps(self._localizer.map_changes(now, last)))
         if inputs.evaluations is not None:
             recorder.evaluations(now, inputs.evaluations.take())
-        if inputs.delays:
+        if self._disturbed and inputs.delays:
             count = self._driven.count
             recorder.events(inputs.delays.attacked(now, self._motion.reached + count, self._orders.released + count))
-        recorder.events(self._motion.events)
+        if self._motion.events:
+            recorder.events(self._motion.events)
         confirmed = self._driven.motion(self._confirmed)
         if last or recorder.is_due(self._step):
             sample = Sample(
@@ -326,7 +345,7 @@ class ExecutionLoop(ControlLoop):
         commands = inputs.crowds.doors(self._state, commands)
         inputs.crowds.step(self._state)
         twist = inputs.noise.actuated(self._motion.twist)
-        if inputs.delays:
+        if self._disturbed and inputs.delays:
             twist = inputs.delays.driven(twist, self._motion.reached + self._driven.count)
         if inputs.faults:
             commands = inputs.faults.held(commands, self._state.facilities)

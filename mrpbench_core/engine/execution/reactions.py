@@ -49,8 +49,7 @@ class Reactions:
     @property
     def held(self) -> Bool:
         """The robots bool[n] that others go around: those that stand or are silent."""
-        held = self._faults.stopped | self._faults.silent
-        return held if self._replans else np.zeros_like(held)
+        return self._faults.stopped | self._faults.silent if self._replans else self._nobody
 
     def update(self) -> Bool:
         """Return the robots bool[n] whose tasks are given up from now on."""

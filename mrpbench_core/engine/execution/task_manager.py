@@ -305,5 +305,6 @@ class TaskManager:
         return errand.at(it for it in errand.yaws if reaches(restricted, errand.robot, head, (it,)))
 
     def _is_done(self, errand: tuple[int, int]) -> bool:
-        job = self._board.jobs.get(errand[0])
-        return errand[0] != ELSEWHERE and (job is None or job.errand > errand[1])
+        task, number = errand
+        job = self._board.jobs.get(task)
+        return task != ELSEWHERE and (job is None or job.errand > number)

@@ -43,13 +43,13 @@ class Visits:
         """Count goals.
 
         Args:
-            place: f8[n,2] metres, where robots truly are.
+            place: f8[n,2+] metres, where robots truly are.
             level: i2[n].
             reached: i4[n] segments of their paths that are reported as reached.
         """
         for robot, due in self._due.items():
             while self.count[robot] < len(due) and due[self.count[robot]] <= reached[robot]:
-                if not self._is_at(self._goals[robot][self.count[robot]], place[robot], level[robot]):
+                if not self._is_at(self._goals[robot][self.count[robot]], place[robot, :2], level[robot]):
                     break
                 self.count[robot] += 1
 
@@ -73,6 +73,8 @@ class Visits:
         return f"robot {robot} did not come within {self._tolerance:g} m of goal {self.count[robot]} of its sequence"
 
     def _unfinished(self) -> list[int]:
+        if max(map(len, self._goals), default=0) < 2:
+            return []
         ahead = zip(self._goals, self.count.tolist(), strict=True)
         return [robot for robot, (goals, visited) in enumerate(ahead) if visited < len(goals) - 1]
 

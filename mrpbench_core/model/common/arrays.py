@@ -13,6 +13,9 @@ Int16 = NDArray[np.int16]
 Byte = NDArray[np.uint8]
 Bool = NDArray[np.bool_]
 
+_FROZEN, _FLAGS = 0x5, 0x405
+"""Flags of an array that owns its values in C order, `C_CONTIGUOUS | OWNDATA` of NumPy, and the same with `WRITEABLE`.
+"""
 ARRAY = "array"
 """Key of the metadata of a field declared by `array`: its dtype, and its columns or None."""
 
@@ -35,11 +38,8 @@ def frozen_array(values: ArrayLike, dtype: DTypeLike, columns: int | None = None
 
 
 def _frozen(source: NDArray[Any]) -> NDArray[Any]:
-    """Return a read-only copy, or `given` if it is one already."""
-    flags = source.flags
-    if flags.writeable or not (flags.c_contiguous and flags.owndata):
-        return read_only(source.copy())
-    return source
+    """Return a read-only copy, or `source` if it is one already."""
+    return source if source.flags.num & _FLAGS == _FROZEN else read_only(source.copy())
 
 
 def read_only(array: NDArray[Any]) -> NDArray[Any]:
@@ -60,14 +60,12 @@ def _converted(source: NDArray[Any], wanted: np.dtype[Any]) -> NDArray[Any]:
 def array(dtype: DTypeLike, columns: int | None = None, **arguments: Any) -> Any:
     """Declare an attrs field that holds a read-only array of `dtype` (with `columns` columns if two-dimensional)."""
     wanted = np.dtype(dtype)
+    shape = None if columns is None else (columns,)
 
     def convert(values: ArrayLike) -> NDArray[Any]:
-        if (
-            type(values) is np.ndarray
-            and values.dtype is wanted
-            and (columns is None or values.shape[1:] == (columns,))
-        ):
-            return _frozen(values)  # the usual case in every control period
+        if type(values) is np.ndarray and values.dtype is wanted and (shape is None or values.shape[1:] == shape):
+            # The usual case in every control period, therefore without another call.
+            return values if values.flags.num & _FLAGS == _FROZEN else read_only(values.copy())
         return frozen_array(values, wanted, columns)
 
     return attrs.field(

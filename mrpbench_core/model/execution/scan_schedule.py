@@ -1,5 +1,6 @@
 """The times at which robots scan, which are the same in every simulator."""
 
+from mrpbench_core.model.common.arrays import Int32, frozen_array
 from mrpbench_core.model.common.fleet import Fleet, Lidar
 
 
@@ -24,12 +25,13 @@ class ScanSchedule:
         """The distinct lidars of the fleet."""
         return tuple(self._turns)
 
-    def due(self, period: int) -> list[tuple[Lidar, list[int]]]:
-        """The robots that scan at the end of a period, by lidar."""
-        now = ((lidar, turns[period % len(turns)]) for lidar, turns in self._turns.items())
-        return [(lidar, robots) for lidar, robots in now if robots]
+    def due(self, period: int) -> list[tuple[Lidar, Int32]]:
+        """The robots i4[k] that scan at the end of a period, by lidar."""
+        now = [(lidar, turns[period % len(turns)]) for lidar, turns in self._turns.items()]
+        return [(lidar, robots) for lidar, robots in now if len(robots)]
 
 
-def _turns(robots: list[int], every: int) -> list[list[int]]:
+def _turns(robots: list[int], every: int) -> list[Int32]:
     """The robots that scan in each of `every` periods."""
-    return [[robot for robot in robots if (period + robot) % every == 0] for period in range(every)]
+    turns = [[robot for robot in robots if (period + robot) % every == 0] for period in range(every)]
+    return [frozen_array(turn, "i4") for turn in turns]

@@ -2,11 +2,12 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 from enum import StrEnum
+from functools import cached_property
 
 import attrs
 import numpy as np
 
-from mrpbench_core.model.common.arrays import Int, Int32, array
+from mrpbench_core.model.common.arrays import Int, Int32, array, read_only
 from mrpbench_core.model.common.flat_sequence import FlatSequence, firsts, joined, rows
 from mrpbench_core.model.planning.roadmap import Roadmap
 
@@ -80,20 +81,20 @@ class Paths(FlatSequence[RobotPath]):
         here = rows(self.first, index)
         return RobotPath(edge=self.edge[here], enter=self.enter[here], leave=self.leave[here])
 
-    @property
+    @cached_property
     def size(self) -> Int:
         """Number i8[n] of segments of each path."""
-        return np.diff(self.first)
+        return read_only(np.diff(self.first))
 
-    @property
+    @cached_property
     def robot(self) -> Int:
         """i8[m]: the robot of each segment."""
-        return np.repeat(np.arange(len(self)), self.size)
+        return read_only(np.repeat(np.arange(len(self)), self.size))
 
-    @property
+    @cached_property
     def segment(self) -> Int:
         """i8[m]: the index of each segment in its path."""
-        return np.arange(len(self.edge)) - np.repeat(self.first[:-1], self.size)
+        return read_only(np.arange(len(self.edge)) - np.repeat(self.first[:-1], self.size))
 
     def part(self, begin: Int | Int32, end: Int | Int32) -> "Paths":
         """The segments from `begin` i8[n] until before `end` i8[n] of each path; a path may have fewer."""

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from enum import StrEnum
+from itertools import chain
 
 import attrs
 import numpy as np
@@ -122,9 +123,9 @@ def features_of(problem: Problem) -> frozenset[Feature]:
         features.add(Feature.RESOURCES)
     if not np.isnan(problem.roadmap.heading).all():
         features.add(Feature.HEADINGS)
-    if any(len(goal) != 1 for sequence in problem.goals for goal in sequence):
+    if set(map(len, chain.from_iterable(problem.goals))) - {1}:
         features.add(Feature.GOAL_SETS)
-    if any(len(sequence) != 1 for sequence in problem.goals):
+    if set(map(len, problem.goals)) - {1}:
         features.add(Feature.GOAL_SEQUENCES)
     last = [sequence[-1] for sequence in problem.goals if sequence and len(sequence[-1]) == 1]
     if problem.horizon is not None and len(set(last)) < len(last):

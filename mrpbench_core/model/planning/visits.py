@@ -29,7 +29,9 @@ def visited_goals(problem: Problem, robot: Int, head: Int | Int32) -> dict[int, 
         robot: i8[m] the robot of each move, in ascending order, those of a robot in the order of its path.
         head: i4[m] or i8[m] vertex at the end of each move.
     """
-    visits = {}
+    visits: dict[int, int] = {}
+    if max(map(len, problem.goals), default=0) < 2:
+        return visits
     first = np.searchsorted(robot, np.arange(len(problem) + 1)).tolist()
     for index, sequence in enumerate(problem.goals):
         if len(sequence) > 1:

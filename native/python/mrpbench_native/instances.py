@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 from types import ModuleType
-from typing import NamedTuple
+from typing import Any, NamedTuple, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,6 +32,27 @@ class Segments(NamedTuple):
     """i8[k] ticks."""
 
 
+class Committed(NamedTuple):
+    """The beginnings of all paths that are already fixed, robot after robot."""
+
+    first: NDArray[np.int64]
+    """i8[n+1]: those of robot i are the rows `first[i]:first[i + 1]`."""
+    edge: NDArray[np.int32]
+    """i4[k] as in `Segments`, like the other columns."""
+    enter: NDArray[np.int64]
+    leave: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, segments: Sequence[Segments], robots: int) -> Self:
+        """Join the segments of each of so many robots; () = nothing is fixed."""
+        return cls(
+            _first(len(path.edge) for path in segments) if segments else np.zeros(robots + 1, "i8"),
+            _joined([path.edge for path in segments], "i4"),
+            _joined([path.enter for path in segments], "i8"),
+            _joined([path.leave for path in segments], "i8"),
+        )
+
+
 class Robots(NamedTuple):
     """The robots, one row each."""
 
@@ -47,7 +68,7 @@ class Robots(NamedTuple):
     """i4[n]: rows of `SolverRoadmap.duration`; None = 0."""
     radius: NDArray[np.float64] | None = None
     """f8[n] metres; None = 0."""
-    committed: Sequence[Segments] = ()
+    committed: Sequence[Segments] | Committed = ()
     """For each robot what is fixed of its path; () = nothing."""
     rank: NDArray[np.int32] | None = None
     """i4[n]: those with lower ranks go first, where a planner has an order; None = 0."""
@@ -97,7 +118,9 @@ def build_instance(
         TypeError: an array has the wrong type or shape.
     """
     count = len(robots.start)
-    committed = robots.committed or [Segments(*(np.empty(0, kind) for kind in ("i4", "i8", "i8")))] * count
+    committed = robots.committed
+    if not isinstance(committed, Committed):
+        committed = Committed.of(committed, count)
     via = robots.via or [()] * count
     visits = [goals for sets in via for goals in sets]
     instance: mapf.Instance = module.Instance(
@@ -113,10 +136,7 @@ def build_instance(
             "via_first": _first(map(len, via)),
             "via_goal_first": _first(map(len, visits)),
             "via_goal": _joined(visits, "i4"),
-            "committed_first": _first(len(path.edge) for path in committed),
-            "committed_edge": _joined([path.edge for path in committed], "i4"),
-            "committed_enter": _joined([path.enter for path in committed], "i8"),
-            "committed_leave": _joined([path.leave for path in committed], "i8"),
+            **{f"committed_{name}": column for name, column in committed._asdict().items()},
         },
         exclusions=exclusions._asdict(),
         resources={
@@ -137,5 +157,5 @@ def _first(lengths: Iterable[int]) -> NDArray[np.int64]:
     return np.cumsum([0, *lengths], dtype="i8")
 
 
-def _joined(parts: Sequence[NDArray[np.generic]], dtype: str) -> NDArray[np.generic]:
+def _joined(parts: Sequence[NDArray[Any]], dtype: str) -> NDArray[Any]:
     return np.concatenate([np.empty(0, dtype), *parts]).astype(dtype)

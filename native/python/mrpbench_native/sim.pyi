@@ -32,6 +32,8 @@ class Plane:
         """
     def step(self, twist: NDArray[np.float64], movers: NDArray[np.float64] | None = None) -> None:
         """Advance by one control period under commands f8[n,2]; move movers to f8[m,2], or leave them."""
+    def observe(self, pose: NDArray[np.float64], twist: NDArray[np.float64]) -> int:
+        """Write `pose` f8[n,3] and `twist` f8[n,2] into arrays of the caller; return the number of `contacts`."""
     def set_leaves(self, segments: NDArray[np.float64]) -> None:
         """Replace the door leaves f8[S,4] that are solid besides the segments of the constructor."""
     def place(self, robot: int, x: float, y: float) -> None:

@@ -24,16 +24,16 @@ class ControllerServer:
         self._before = 0.0
         """Simulated second of the control period before."""
 
-    def command(self, observations: Observations) -> tuple[Float, Bool]:
-        """The commands f8[k,2] of all rows, and whether each is missing: NaN, as none is admissible.
+    def command(self, observations: Observations) -> tuple[Float, Bool | None]:
+        """The commands f8[k,2] of all rows, and whether each is missing: NaN, as none is admissible. None: none is.
 
         Raises:
             BrokenContractError: the controller returned something else.
         """
         command = self._controllers.command(observations)
         missing = self._check(command, observations.robot)
-        if self._without or np.count_nonzero(missing):
-            robots = observations.robot[missing].tolist()
+        if self._without or missing is not None:
+            robots = [] if missing is None else observations.robot[missing].tolist()
             waiting = set(observations.robot.tolist()).difference(robots)
             self._without = {robot: since for robot, since in self._without.items() if robot not in waiting}
             self._without = dict.fromkeys(robots, self._before) | self._without
@@ -54,19 +54,19 @@ class ControllerServer:
         """Return the reason why there was no admissible command for a robot."""
         return self._controllers.failure_reason(robot)
 
-    def _check(self, command: object, robots: np.ndarray) -> Bool:
-        """Tell bool[k] which commands are missing."""
+    def _check(self, command: object, robots: np.ndarray) -> Bool | None:
+        """Tell bool[k] which commands are missing, or None if none is."""
         subject = f"the controller {self._name}"
         if not isinstance(command, np.ndarray) or command.shape != (len(robots), 2):
             raise BrokenContractError(f"{subject} returned {command!r} instead of f8[{len(robots)},2]", "controller")
         finite = np.isfinite(command)
-        missing: Bool = np.zeros(len(robots), bool)
-        if np.count_nonzero(finite) < command.size:
-            missing = np.isnan(command[:, 0]) & np.isnan(command[:, 1])
-            wrong = ~finite.all(axis=1) & ~missing
-            if wrong.any():
-                row = int(wrong.argmax())
-                raise BrokenContractError(
-                    f"{subject} returned {command[row].tolist()} for robot {robots[row]}", "controller"
-                )
+        if np.count_nonzero(finite) == command.size:
+            return None
+        missing: Bool = np.isnan(command[:, 0]) & np.isnan(command[:, 1])
+        wrong = ~finite.all(axis=1) & ~missing
+        if wrong.any():
+            row = int(wrong.argmax())
+            raise BrokenContractError(
+                f"{subject} returned {command[row].tolist()} for robot {robots[row]}", "controller"
+            )
         return missing

@@ -43,6 +43,10 @@ class Detours:
         """Robots whose detour ends beside the end of the path."""
         self._detouring = follower.activities.detouring
 
+    def __bool__(self) -> bool:
+        """Tell whether any robot is on a detour."""
+        return bool(self._detours)
+
     def cancel(self, robot: int) -> None:
         """Forget the detour of a robot; it may ask for another at once."""
         self._drop(robot)

@@ -8,10 +8,13 @@ import numpy as np
 from mrpbench_native.navigation import Navigation
 
 from mrpbench_core.model.common.arrays import Bool, Byte, Float, Int, Int16, Int32, read_only
+from mrpbench_core.model.execution.motion import Mode
 from mrpbench_core.model.execution.route import Route, Routes
 from mrpbench_navigators_waypoints.route_tables import SLACK, ArrivalRules, RouteTables
 
 _NO_LIMITS: Float = np.zeros(0)
+_MODES = np.array([Mode.WAITING, Mode.FOLLOWING], np.uint8)
+"""The mode of a robot that neither recovers nor has given up, by whether it is under way."""
 
 
 @attrs.frozen(kw_only=True)
@@ -102,6 +105,7 @@ class RouteFollower:
         """u1[n]: robots that have to drive on, or to take a yaw; a robot in a lift has not."""
         self.following: Bool = state["following"].view(bool)
         """bool[n]: robots that a controller has to drive."""
+        self._were_under_way, self._modes = b"", self.under_way
         self._counts, self._stuck = (state["reached"], state["cleared"]), state["stuck"].view(bool)
         self.adopt(routes)
 
@@ -143,6 +147,13 @@ class RouteFollower:
         if count != self._count:
             self._count, self._targets = count, {name: values[:count] for name, values in self._rows.items()}
         return Targets(rows=self._targets, stuck=self._stuck if is_stuck else None, due=due, blocked=blocked)
+
+    def modes(self) -> Byte:
+        """The modes u1[n] of robots that neither recover nor have given up; the same array while none changes."""
+        under_way = self.under_way.tobytes()
+        if under_way != self._were_under_way:
+            self._were_under_way, self._modes = under_way, read_only(_MODES.take(self.under_way))
+        return self._modes
 
     def ask_at_once(self, robot: int) -> None:
         """Let a robot ask for a detour when it is driven next."""

@@ -6,7 +6,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api.navigator import NavigatorSession
-from mrpbench_core.model.common.arrays import Bool, Byte, Float, Int32
+from mrpbench_core.model.common.arrays import Bool, Float, Int32, read_only
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.observation import FleetObservation, Observations
@@ -19,9 +19,6 @@ from mrpbench_navigators_waypoints.obstructions import obstruction
 from mrpbench_navigators_waypoints.recovery_manager import RecoveryManager
 from mrpbench_navigators_waypoints.rotations import Rotations
 from mrpbench_navigators_waypoints.route_follower import RouteFollower, Targets
-
-_MODES = np.array([Mode.WAITING, Mode.FOLLOWING], np.uint8)
-"""The mode of a robot that neither recovers nor has given up, by whether it is under way."""
 
 
 @attrs.frozen(kw_only=True)
@@ -50,8 +47,10 @@ class WaypointsSession(NavigatorSession):
         pose, measured = observation.estimate.pose, observation.odometry.twist
         follower, recoveries, rotations = self.follower, self.recoveries, self.rotations
         follower.update(pose, measured, orders.released, observation.level)
-        rotations.update(now, orders)
-        self.detours.shorten(pose)
+        if orders.in_step or rotations:
+            rotations.update(now, orders)
+        if self.detours:
+            self.detours.shorten(pose)
         targets = follower.survey(now, pose, measured, orders.speed)
         twist, events = self._drive(now, observation, targets)
         stuck = targets.stuck
@@ -61,12 +60,17 @@ class WaypointsSession(NavigatorSession):
         failed = self.controllers.have_failed(now, follower.following)
         if failed or stuck is not None:
             self._recover(now, observation, stuck, failed, twist, events)
-        events += recoveries.step(now, pose, measured, twist)
+        mode = follower.modes()
+        if recoveries:
+            events += recoveries.step(now, pose, measured, twist)
+            mode = mode.copy()
+            mode[recoveries.recovering] = Mode.RECOVERING
+            mode[recoveries.aborted] = Mode.ABORTED
         return Motion(
-            twist=twist,
+            twist=read_only(twist),
             reached=follower.reached,
             cleared=follower.cleared,
-            mode=_modes(follower.under_way, recoveries),
+            mode=mode,
             events=tuple(events),
         )
 
@@ -108,15 +112,7 @@ class WaypointsSession(NavigatorSession):
         command, missing = self.controllers.command(self.detours.apply(on_routes))
         asking, twist, robots = targets.blocked, np.zeros((len(pose), 2)), rows["robot"]
         twist[robots] = command
-        if np.count_nonzero(missing):
+        if missing is not None:
             twist[robots[missing]] = 0.0
             asking = sorted({*asking, *(row for row in targets.due if missing[row])})
-        return twist, self.detours.request(on_routes, asking)
-
-
-def _modes(under_way: Byte, recoveries: RecoveryManager) -> Byte:
-    mode = _MODES.take(under_way)
-    if recoveries:
-        mode[recoveries.recovering] = Mode.RECOVERING
-        mode[recoveries.aborted] = Mode.ABORTED
-    return mode
+        return twist, self.detours.request(on_routes, asking) if asking else []

@@ -2,15 +2,15 @@
 
 import time
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
+from itertools import chain
 from types import ModuleType
 
 import numpy as np
 from mrpbench_native import mapf
 from mrpbench_native.instances import (
     NO_EXCLUSIONS,
+    Committed,
     Robots,
-    Segments,
     SolverExclusions,
     SolverResource,
     SolverRoadmap,
@@ -86,18 +86,16 @@ def solve(
 
 def _instance(problem: Problem, module: ModuleType, rank: Int32 | None, known: KnownRoadmap | None) -> mapf.Instance:
     roadmap, prefix = problem.roadmap, Paths.of(problem.commitments)
+    visits = max(map(len, problem.goals), default=0) > 1
     arrays = SolverRoadmap(roadmap.position, roadmap.edges, roadmap.duration)
     robots = Robots(
         start=problem.start,
-        goals=[_goals(sequence[-1] if sequence else range(len(roadmap.position))) for sequence in problem.goals],
-        via=[[_goals(goal) for goal in sequence[:-1]] for sequence in problem.goals],
+        goals=_goals([sequence[-1] if sequence else range(len(roadmap.position)) for sequence in problem.goals]),
+        via=[_goals(sequence[:-1]) for sequence in problem.goals] if visits else (),
         ready=problem.ready,
         profile=problem.profile,
         radius=problem.radius,
-        committed=[
-            Segments(prefix.edge[begin:end], prefix.enter[begin:end], prefix.leave[begin:end])
-            for begin, end in pairwise(prefix.first.tolist())
-        ],
+        committed=Committed(prefix.first, prefix.edge, prefix.enter, prefix.leave) if problem.commitments else (),
         rank=rank,
     )
     edges_after = len(roadmap.position)  # elements are vertices, then edges
@@ -122,8 +120,11 @@ def _instance(problem: Problem, module: ModuleType, rank: Int32 | None, known: K
     )
 
 
-def _goals(goal: Sequence[int]) -> Int32:
-    return np.array(goal if len(goal) == 1 else sorted(set(goal)), np.int32)
+def _goals(sets: Sequence[Sequence[int]]) -> list[Int32]:
+    """The vertices i4[g] of each set of goals, sorted."""
+    if set(map(len, sets)) == {1}:  # the usual case
+        return [*np.fromiter(chain.from_iterable(sets), np.int32, len(sets)).reshape(-1, 1)]
+    return [np.array(sorted(set(goal)), np.int32) for goal in sets]
 
 
 def _exclusions(problem: Problem) -> SolverExclusions:

@@ -4,7 +4,7 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
-from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.common.poses import wrapped
 from mrpbench_simulators_bodies.engine import Engine
 from mrpbench_simulators_bodies.scene import Scene
@@ -90,22 +90,30 @@ class Plane(Drive):
     def command(self, twist: Float) -> None:
         """Set the velocities of this period."""
         way = self._acceleration * self._period
-        change = np.clip(twist - self._twist, -way, way)
+        change = np.minimum(np.maximum(twist - self._twist, -way), way)
         # Mean over the period of a speed that changes at full acceleration until it is reached, and then stays.
         mean = self._twist + change - change * np.abs(change) / (2 * way)
         self._twist = self._twist + change
         turn = mean[:, 1] * self._period
         speed, heading = mean[:, 0] * np.sinc(turn / (2 * np.pi)), self._pose[:, 2] + turn / 2
-        velocity = np.column_stack([speed * np.cos(heading), speed * np.sin(heading), mean[:, 1]])
+        velocity = np.empty((len(speed), 3))
+        velocity[:, 0], velocity[:, 1], velocity[:, 2] = speed * np.cos(heading), speed * np.sin(heading), mean[:, 1]
         self._expected = self._pose + velocity * self._period
         self._engine.move(velocity)
 
     def observe(self) -> tuple[Float, Float]:
         """A body that was pushed has the twist of its actual motion."""
-        pose, _ = self._engine.observe()
+        pose = self._engine.poses()
         off = pose - self._expected
         off[:, 2] = wrapped(off[:, 2])
-        pushed = np.flatnonzero((np.abs(off) > _PUSHED).any(axis=1))
+        is_off = np.abs(off) > _PUSHED
+        if np.count_nonzero(is_off):
+            self._stop(is_off.any(axis=1).nonzero()[0], pose)
+        self._pose = self._expected = pose
+        return pose, self._twist.copy()
+
+    def _stop(self, pushed: Int, pose: Float) -> None:
+        """Give robots i8[k] that were pushed to `pose` f8[n,3] the twists of their motion."""
         step = pose - self._pose
         turn = wrapped(step[:, 2])
         heading = self._pose[:, 2] + turn / 2
@@ -113,8 +121,6 @@ class Plane(Drive):
         self._twist[pushed] = np.column_stack([ahead, turn])[pushed] / self._period
         for robot in pushed.tolist():
             self._engine.place(robot, *pose[robot, :2].tolist())
-        self._pose = self._expected = pose
-        return pose, self._twist.copy()
 
     def place(self, robot: int, x: float, y: float) -> None:
         """Move a robot to x, y, at rest."""

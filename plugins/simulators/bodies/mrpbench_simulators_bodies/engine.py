@@ -32,6 +32,10 @@ class Engine(ABC):
     def observe(self) -> tuple[Float, Float]:
         """Poses f8[n,3] of the base frames in the plane and twists f8[n,2]: m/s ahead, rad/s."""
 
+    def poses(self) -> Float:
+        """Poses f8[n,3] as of `observe`."""
+        return self.observe()[0]
+
     @abstractmethod
     def place(self, robot: int, x: float, y: float) -> None:
         """Move a robot to x, y, with the orientation that it has; if it keeps to the plane, it comes to rest."""

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 from mrpbench_native.sim import Caster
 
-from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.arrays import Float, Int32
 from mrpbench_core.model.common.fleet import Lidar
 from mrpbench_simulators_bodies.body import RobotBody
 from mrpbench_simulators_bodies.sections import outline_at
@@ -21,16 +21,14 @@ class Casters:
         """For each lidar, the outline f8[S,4] of each robot in its base frame."""
         self._flat = {lidar: _flat(sides) for lidar, sides in self.outlines.items()}
 
-    def scan(
-        self, lidar: Lidar, robots: Sequence[int], pose: Float, movers: Float, radius: Float, leaves: Float
-    ) -> Float:
+    def scan(self, lidar: Lidar, robots: Int32, pose: Float, movers: Float, radius: Float, leaves: Float) -> Float:
         """Ranges f8[k,beams] of `robots`, while all stand at `pose` f8[n,3] and leaves at f8[S,4]; inf = no return.
 
         `movers` f8[m,2] are the centres of discs of `radius` f8[m].
         """
         side, first = self._flat[lidar]
         return self._casters[lidar].scan(
-            np.array(robots, np.int32),
+            robots,
             pose,
             np.ascontiguousarray(movers),
             np.concatenate([self._radii, radius]),

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 
 from mrpbench_core.api import Simulation
-from mrpbench_core.model.common.arrays import Float, Int16
+from mrpbench_core.model.common.arrays import Float, Int16, Int32
 from mrpbench_core.model.common.fleet import Fleet, Lidar
 from mrpbench_core.model.execution.movers import MoverDiscs
 from mrpbench_core.model.execution.observation import ScanBatch
@@ -76,7 +76,7 @@ class BodySimulation(Simulation):
             self._operate(inputs.facilities)
         self._discs.update(inputs)
         self.engine.prepare(self._plane[:, :2])
-        self._drive.command(np.clip(inputs.twist, -self._limit, self._limit))
+        self._drive.command(np.minimum(np.maximum(inputs.twist, -self._limit), self._limit))
         forces: dict[tuple[int, int], float] = {}
         for substep in range(1, self._substeps + 1):
             self._drive.before_step()
@@ -124,11 +124,11 @@ class BodySimulation(Simulation):
     def _take_scans(self) -> tuple[ScanBatch, ...]:
         stamp = self._periods * self._period
         return tuple(
-            ScanBatch(stamp=stamp, robot=np.array(robots), ranges=self.scan(lidar, robots))
+            ScanBatch(stamp=stamp, robot=robots, ranges=self.scan(lidar, robots))
             for lidar, robots in self._schedule.due(self._periods)
         )
 
-    def scan(self, lidar: Lidar, robots: Sequence[int]) -> Float:
+    def scan(self, lidar: Lidar, robots: Int32) -> Float:
         """Ranges f8[k,beams] of `robots` now; inf = no return."""
         discs = self._discs
         return self._casters.scan(lidar, robots, self._plane, discs.scan_discs, discs.scan_radius, self._outlines)

@@ -8,8 +8,8 @@ import numpy as np
 from mrpbench_native.sim import Caster, Plane
 
 from mrpbench_core.api import Simulation
-from mrpbench_core.model.common.arrays import Float, Int16, frozen_array
-from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.common.arrays import Float, Int16, Int32, frozen_array, read_only
+from mrpbench_core.model.common.fleet import Fleet, Lidar
 from mrpbench_core.model.execution.movers import MoverDiscs
 from mrpbench_core.model.execution.observation import ScanBatch
 from mrpbench_core.model.execution.scan_schedule import ScanSchedule
@@ -17,6 +17,8 @@ from mrpbench_core.model.execution.state import Inputs, State
 from mrpbench_core.model.worlds.facilities import Facilities
 from mrpbench_core.model.worlds.level_layout import LevelLayout
 from mrpbench_core.model.worlds.world import World
+
+_NO_CONTACTS = frozen_array(np.empty((0, 2)), "i4", 2)
 
 
 class WheelNoise(NamedTuple):
@@ -75,7 +77,7 @@ class PlanarSimulation(Simulation):
         }
         self._movers = MoverDiscs(self._layout, np.asarray(movers, float))
         self._state = self._observe()
-        self._scans = self._take_scans()
+        self._scans = self._take_scans(self._schedule.due(0))
 
     @property
     def state(self) -> State:
@@ -90,14 +92,17 @@ class PlanarSimulation(Simulation):
         self._plane.step(inputs.twist, np.ascontiguousarray(self._movers.body))
         self._periods += 1
         self._state = self._observe()
-        self._scans += self._take_scans()
+        if due := self._schedule.due(self._periods):
+            self._scans += self._take_scans(due)
         return self._state
 
     def _observe(self) -> State:
-        plane = self._plane
-        self._pose = plane.pose
-        pose = self._layout.to_levels(self._pose, self._level)
-        return State(pose=pose, twist=plane.twist, level=self._level, contacts=plane.contacts, facilities=self._doing)
+        robots = len(self._level)
+        pose, twist = np.empty((robots, 3)), np.empty((robots, 2))
+        contacts = self._plane.contacts if self._plane.observe(pose, twist) else _NO_CONTACTS
+        self._pose = read_only(pose)
+        pose = self._layout.to_levels(pose, self._level)
+        return State(pose=pose, twist=read_only(twist), level=self._level, contacts=contacts, facilities=self._doing)
 
     def _operate(self, commands: Mapping[str, float]) -> None:
         """Move doors and lifts, and the robots in lifts."""
@@ -120,20 +125,16 @@ class PlanarSimulation(Simulation):
         taken, self._scans = self._scans, ()
         return taken
 
-    def _take_scans(self) -> tuple[ScanBatch, ...]:
-        """Scans due now."""
-        due = self._schedule.due(self._periods)
-        if not due:
-            return ()
+    def _take_scans(self, due: Sequence[tuple[Lidar, Int32]]) -> tuple[ScanBatch, ...]:
+        """Scans of the robots whose turn it is now, by lidar."""
         stamp = self._periods * self._period
-        batches = []
         radius, discs = self._robot_radius, np.ascontiguousarray(self._movers.scan_discs)
         if len(discs):
             radius = np.concatenate([radius, self._movers.scan_radius])
+        batches = []
         for lidar, robots in due:
-            scanning = np.array(robots, np.int32)
-            ranges = self._casters[lidar].scan(scanning, self._pose, discs, radius, self._leaves)
-            batches.append(ScanBatch(stamp=stamp, robot=scanning, ranges=ranges))
+            ranges = self._casters[lidar].scan(robots, self._pose, discs, radius, self._leaves)
+            batches.append(ScanBatch(stamp=stamp, robot=robots, ranges=ranges))
         return tuple(batches)
 
     def close(self) -> None:

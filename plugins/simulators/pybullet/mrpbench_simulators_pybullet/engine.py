@@ -80,6 +80,17 @@ class BulletEngine(Engine):
             twist[robot] = vx * math.cos(yaw) + vy * math.sin(yaw), turn
         return pose, twist
 
+    def poses(self) -> Float:
+        """Poses f8[n,3] alone, which is all that bodies in the plane are asked for."""
+        if not self._planar:
+            return super().poses()
+        states = [self.bullet.getBasePositionAndOrientation(body) for body in self.bodies]
+        poses = [
+            (x, y, math.atan2(2 * (qw * qz + qx * qy), 1 - 2 * (qy * qy + qz * qz)))
+            for (x, y, _), (qx, qy, qz, qw) in states
+        ]
+        return np.array(poses, float).reshape(-1, 3)
+
     def weight(self) -> float:
         """Newton with which all robots press on the floor."""
         return float(sum(point[FORCE] for point in self.bullet.getContactPoints(bodyA=self._ground)))

@@ -1,10 +1,8 @@
 """Lidars by Bullet's ray tests, which take a hundred times as long as the native caster, to check it."""
 
-from collections.abc import Sequence
-
 import numpy as np
 
-from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.arrays import Float, Int32
 from mrpbench_core.model.common.fleet import Lidar
 from mrpbench_core.model.execution.movers import MoverDiscs
 from mrpbench_core.model.worlds.solids import polygon_outline
@@ -37,7 +35,7 @@ class RayTests:
         self._movers: list[int] = []
         self._mover_radius: Float = np.empty(0)
 
-    def scan(self, lidar: Lidar, robots: Sequence[int], pose: Float, movers: MoverDiscs) -> Float:
+    def scan(self, lidar: Lidar, robots: Int32, pose: Float, movers: MoverDiscs) -> Float:
         """Ranges f8[k,beams] of `robots`, while all stand at `pose` f8[n,3]; inf = no return."""
         self._place_movers(movers)
         shown = self._robots[lidar]

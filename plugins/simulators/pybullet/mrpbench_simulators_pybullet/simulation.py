@@ -1,11 +1,10 @@
 """A PyBullet world in motion whose lidars are ray tests."""
 
-from collections.abc import Sequence
 from typing import Any
 
 from mrpbench_simulators_bodies.simulation import BodySimulation
 
-from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.arrays import Float, Int32
 from mrpbench_core.model.common.fleet import Lidar
 from mrpbench_simulators_pybullet.bullet import quiet
 from mrpbench_simulators_pybullet.engine import BulletEngine
@@ -17,7 +16,7 @@ class RayTestSimulation(BodySimulation):
 
     _rays: RayTests | None = None
 
-    def scan(self, lidar: Lidar, robots: Sequence[int]) -> Float:
+    def scan(self, lidar: Lidar, robots: Int32) -> Float:
         """Ranges f8[k,beams] of `robots` now; inf = no return."""
         if self._rays is None:
             engine: Any = self.engine
