@@ -1,5 +1,6 @@
 """The parts of a study that a search for a fleet varies: the rate of orders, the robots, and the chargers."""
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -22,6 +23,8 @@ def check_study(points: Sequence[StudyRun]) -> None:
         raise InputError(f"scenario: {config['scenario']['plugin']!r} has no number of robots", hint="use `random`")
     if len(config["fleet"]) > 1 or config["fleet"][0]["count"] is not None:
         raise InputError("fleet: the number of robots varies, so name one kind of robot without a count")
+    if not any(metric["plugin"] == "tasks" for metric in config["metrics"]):
+        raise InputError("metrics: add the metric `tasks`, which says whether orders pile up")
     if has_batteries(config):
         measured = [metric["energy"] for metric in config["metrics"] if metric["plugin"] == "energy"]
         if not measured:
@@ -50,6 +53,14 @@ def rate_key(config: Mapping[str, Any]) -> str:
     if not isinstance(source, dict) or "rate" not in source:
         raise InputError(f"{key}: the study has no orders with a rate", hint="use `poisson` or `pickup_delivery`")
     return f"{key}.rate"
+
+
+def with_bound(config: Mapping[str, Any], bound_s: float) -> Mapping[str, Any]:
+    """Return a configuration whose metric `tasks` counts the orders that are done within a bound; infinite = none."""
+    if not math.isfinite(bound_s):
+        return config
+    metrics = [each | {"within": bound_s} if each["plugin"] == "tasks" else each for each in config["metrics"]]
+    return {**config, "metrics": metrics}
 
 
 def with_chargers(config: Mapping[str, Any], chargers: int | None) -> dict[str, Any]:
