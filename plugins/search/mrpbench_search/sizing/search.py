@@ -65,7 +65,7 @@ class Fleets:
     def held_out_seed(self) -> int:
         """The first seed that no search has."""
         seeds = seeds_of(self.points)
-        return int(max(seeds)) + (2 ** (LOOKS - 1) - 1) * len(seeds) + 1
+        return max(seeds) + ((1 << (LOOKS - 1)) - 1) * len(seeds) + 1
 
     def run(self, first: int) -> str | None:
         """Try fleets until the interval cannot be made shorter; return why the search ended before, if it did."""
@@ -104,7 +104,7 @@ class Fleets:
         """The runs of a look: the seeds of the study, and then those that follow them, twice as many at each look."""
         seeds = seeds_of(self.points)
         repeats = dict.fromkeys(point.canonical["repeat"] for point in self.points)
-        wanted = islice(chain(seeds, count(max(seeds) + 1)), len(seeds) * 2**look)
+        wanted = islice(chain(seeds, count(max(seeds) + 1)), len(seeds) << look)
         return [{"seed": seed, "repeat": repeat} for seed in wanted for repeat in repeats]
 
     def _looks_of(self, sizes: Mapping[int, object]) -> dict[int, int]:
