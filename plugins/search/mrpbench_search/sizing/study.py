@@ -6,9 +6,7 @@ from typing import Any
 
 from mrpbench_core.engine.loading.runs import StudyRun
 from mrpbench_core.files.errors import InputError
-
-CHARGING = "charging"
-"""The task source of robots with batteries, which holds another."""
+from mrpbench_search.asking.arrivals import CHARGING, arrivals
 
 
 def check_study(points: Sequence[StudyRun]) -> None:
@@ -47,10 +45,8 @@ def rate_key(config: Mapping[str, Any]) -> str:
     Raises:
         InputError: there is none.
     """
-    key, source = "tasks", config["tasks"]
-    if isinstance(source, dict) and source["plugin"] == CHARGING:
-        key, source = "tasks.tasks", source["tasks"]
-    if not isinstance(source, dict) or "rate" not in source:
+    key, source = arrivals(config)
+    if "rate" not in source:
         raise InputError(f"{key}: the study has no orders with a rate", hint="use `poisson` or `pickup_delivery`")
     return f"{key}.rate"
 
