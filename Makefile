@@ -8,7 +8,7 @@ JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/pyproject.toml plugins/*/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: paper slurm results-site help install explore pages anchors rotations demo test lint types layers cpp python format lock speed policy pogema clean optima live ros soak sanitize worlds fuzz mutants wheels docs links hunts rotations
+.PHONY: paper slurm results-site help install explore pages anchors rotations demo test lint types layers cpp python format lock speed policy pogema clean optima live ros soak sanitize worlds fuzz mutants wheels docs links hunts
 
 help: ## list the targets
 	@grep -hE '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
