@@ -8,7 +8,7 @@ JOBS ?= 2
 NATIVE := $(shell find native -name build -prune -o \( -name '*.cpp' -o -name '*.hpp' -o -name '*.py' -o -name '*.pyi' -o -name CMakeLists.txt \) -print)
 INPUTS := pyproject.toml uv.lock requirements.txt pinned.txt $(wildcard native/pyproject.toml plugins/pyproject.toml plugins/*/pyproject.toml plugins/*/*/pyproject.toml) $(NATIVE)
 
-.PHONY: paper slurm results-site help install explore pages anchors rotations demo test lint types layers cpp python format lock speed policy pogema clean optima live ros soak sanitize worlds fuzz mutants wheels docs links
+.PHONY: paper slurm results-site help install explore pages anchors rotations demo test lint types layers cpp python format lock speed policy pogema clean optima live ros soak sanitize worlds fuzz mutants wheels docs links hunts
 
 help: ## list the targets
 	@grep -hE '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## /\t/' | expand -t 12
@@ -85,14 +85,14 @@ soak: install ## compare with brute force, execute drawn plans a million times, 
 pages: install ## do what every page of the documentation says, in empty folders (ten minutes)
 	MRPBENCH_ALL_PAGES=1 $(BIN)/pytest --numprocesses $(JOBS) --dist worksteal tests/docs
 
-SANITIZED := build/sanitized
-CHECKED = LD_PRELOAD="$(shell c++ -print-file-name=libasan.so) $(shell c++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 $(SANITIZED)/bin/python
-hunts: install ## hunt for three planted faults, and count the runs until each is found (an hour)
-	$(BIN)/python plugins/search/tests/hunting/soak_hunt.py 10 300
+hunts: install ## hunt for three planted faults, and count the runs until each is found (an hour); ARGS="2 20" for 2 searches and 20 random seeds
+	$(BIN)/python plugins/search/tests/hunting/soak_hunt.py $(or $(ARGS),10 300)
 
 rotations: install ## let rings of robots rotate 100,000 times in simulators and count contacts (two hours)
 	$(BIN)/python tests/builtin/dispatchers/soak_rotations.py 100000 1
 
+SANITIZED := build/sanitized
+CHECKED = LD_PRELOAD="$(shell c++ -print-file-name=libasan.so) $(shell c++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 $(SANITIZED)/bin/python
 sanitize: install ## run native tests and soaks under AddressSanitizer and UndefinedBehaviorSanitizer
 	$(BIN)/cmake -S native -B $(SANITIZED)/cpp -G Ninja -DCMAKE_MAKE_PROGRAM=$(CURDIR)/$(BIN)/ninja -DSANITIZE=ON
 	$(BIN)/cmake --build $(SANITIZED)/cpp

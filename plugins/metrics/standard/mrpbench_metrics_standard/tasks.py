@@ -27,7 +27,7 @@ class Tasks(Metric):
 
     The service time of a task runs from its release until it is done. Tasks that are not done have none; their ages at
     the end count in `age_max_s` and `open_mean`, so that no method gains by leaving them. `per_hour` and `open_growth`
-    are measured after `warm_up`; the other columns cover the whole run.
+    are measured after `warm_up`, as is `service_level`; the other columns cover the whole run.
     """
 
     columns: ClassVar[tuple[Column, ...]] = (
@@ -59,6 +59,13 @@ class Tasks(Metric):
         Column("service_p95_s", "s", "lower", "95th percentile of the service times, linear between tasks"),
         Column("service_p99_s", "s", "lower", "99th percentile of the service times"),
         Column("service_max_s", "s", "lower", "longest service time"),
+        Column(
+            "service_level",
+            "",
+            "higher",
+            "share of the tasks that are done within the option `within` of their release, of those that are released"
+            " after `warm_up` and at least `within` before the end; null without the option or such tasks",
+        ),
         Column("wait_mean_s", "s", "lower", "mean time from the release of a task until a robot begins it"),
         Column("age_max_s", "s", "lower", "largest age of a task: its service time, or its age at the end"),
         Column(
@@ -96,9 +103,15 @@ class Tasks(Metric):
 
     warm_up: float = option(
         0.0,
-        help="time at the beginning that `per_hour` and `open_growth` leave out",
+        help="time at the beginning that `per_hour`, `open_growth` and `service_level` leave out",
         unit="s",
         validator=attrs.validators.ge(0),
+    )
+    within: float | None = option(
+        None,
+        help="service time that `service_level` allows; null: it is not measured",
+        unit="s",
+        validator=attrs.validators.optional(attrs.validators.gt(0)),
     )
 
     def measure(self, run: FinishedRun) -> Mapping[str, Value]:
@@ -131,6 +144,7 @@ class Tasks(Metric):
             "service_mean_s": mean(service),
             **{f"service_p{share}_s": percentile(service, share) for share in (50, 95, 99)},
             "service_max_s": percentile(service, 100),
+            "service_level": self._service_level(release[wanted], done[wanted], begin, end),
             "wait_mean_s": mean(wait),
             "age_max_s": percentile(age, 100),
             "open_mean": math.fsum(age) / (end - begin) if end > begin else None,
@@ -142,6 +156,14 @@ class Tasks(Metric):
             **_distances(run),
             "jain": jain(np.bincount(by, minlength=robots).astype(float)) if len(by) else None,
         }
+
+    def _service_level(self, release: Float, done: Float, begin: float, end: float) -> float | None:
+        """Share of the tasks that are done in time; `release` and `done` f8[tasks] in seconds, NaN = not done."""
+        if self.within is None:
+            return None
+        counted = (release > begin + self.warm_up) & (release <= end - self.within)
+        in_time = done[counted] - release[counted] <= self.within
+        return float(in_time.mean()) if len(in_time) else None
 
 
 def _times(when: Float, index: np.ndarray, chosen: np.ndarray, count: int) -> Float:

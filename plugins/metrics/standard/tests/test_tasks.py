@@ -121,3 +121,12 @@ def test_the_growth_leaves_out_the_warm_up(served):
     tasks = early + [(i, i, i, i + 1, 0, np.inf) for i in range(50, 100)]
     assert Tasks(warm_up=40.0).measure(served(tasks))["open_growth"] == pytest.approx(0, abs=0.05)
     assert Tasks(warm_up=98.5).measure(served(tasks))["open_growth"] is None
+
+
+def test_the_service_level_counts_tasks_whose_time_has_passed(served):
+    run = served(TASKS)  # done after 20 s and 40 s, never, and released 10 s before the end
+    assert Tasks().measure(run)["service_level"] is None
+    assert Tasks(within=40.0).measure(run)["service_level"] == pytest.approx(1 / 2)  # of those after the beginning
+    assert Tasks(within=39.0).measure(run)["service_level"] == 0
+    assert Tasks(within=10.0, warm_up=30.0).measure(run)["service_level"] == 0
+    assert Tasks(within=40.0, warm_up=30.0).measure(run)["service_level"] is None

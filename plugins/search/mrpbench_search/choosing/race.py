@@ -135,7 +135,7 @@ class Race:
             (test.p, one, by, standing) for one, tests in found_tests.items() for by, standing, test in tests
         )
         for p, one, by, standing in ordered:
-            level = self.looks.drop_level(len(self.remaining))
+            level = self.looks.drop_level(len(self.remaining), self.done - 1)
             if one not in self.dropped and p <= shared_level(level, [test.least for *_, test in found_tests[one]]):
                 self.dropped[one] = Dropped(by=by, seeds=seeds, standing=standing, p=p)
 
@@ -145,7 +145,7 @@ class Race:
         if abs(failures[0] - failures[1]) >= NOTICEABLE_FAILURES or not both.any():
             return False
         p = p_beyond_margin(outcomes.values[one, both], outcomes.values[leader, both], self.margin)
-        return p <= self.looks.margin_level
+        return p <= self.looks.margin_level(self.done - 1)
 
 
 def leading(candidates: Sequence[int], outcomes: Outcomes) -> int:

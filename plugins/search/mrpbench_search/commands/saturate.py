@@ -16,8 +16,9 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.status import RunStatus
 from mrpbench_core.report.reading.axes import NO_AXES, find_axes, name_axes
 from mrpbench_search.asking.arguments import add_search, searching, study_of
+from mrpbench_search.asking.arrivals import arrivals
 from mrpbench_search.asking.requests import Requests, SearchEnded, read_whole_study, seeds_of
-from mrpbench_search.asking.variants import read_variants
+from mrpbench_search.asking.variants import patched, read_variants
 from mrpbench_search.saturation.rates import TOLERANCE, Growth, growth, next_rate, saturation
 
 COLUMN = ".open_growth"
@@ -134,7 +135,7 @@ def _search(
 
 def _option(study: StudyRuns) -> str:
     """The option that gives the rate, which all runs have."""
-    blocks = [tasks if isinstance(tasks := point.canonical["tasks"], dict) else {} for point in study.runs]
+    blocks = [arrivals(point.canonical)[1] for point in study.runs]
     for option in UNITS:
         if all(option in block for block in blocks):
             break
@@ -149,9 +150,8 @@ def _option(study: StudyRuns) -> str:
 
 def _key(point: StudyRun, option: str) -> str:
     """The same text for the runs of a combination."""
-    block = {key: value for key, value in point.canonical["tasks"].items() if key != option}
-    others = {key: value for key, value in point.canonical.items() if key not in NO_AXES}
-    return json.dumps(others | {"tasks": block})
+    config = patched(point.canonical, {f"{arrivals(point.canonical)[0]}.{option}": None})
+    return json.dumps({key: value for key, value in config.items() if key not in NO_AXES})
 
 
 def _by_combination(study: StudyRuns, option: str) -> dict[str, list[StudyRun]]:
@@ -168,7 +168,7 @@ def _by_combination(study: StudyRuns, option: str) -> dict[str, list[StudyRun]]:
 def _searches(study: StudyRuns, option: str, points: Mapping[str, Sequence[StudyRun]]) -> dict[str, Search]:
     """One search for each combination."""
     labels = map(name_axes, find_axes([json.loads(key) for key in points]))
-    starts = (float(each[0].canonical["tasks"][option]) for each in points.values())
+    starts = (float(arrivals(each[0].canonical)[1][option]) for each in points.values())
     return {
         key: Search(label or study.name, start if option == "rate" else 1 / start)
         for key, label, start in zip(points, labels, starts, strict=True)
@@ -195,8 +195,8 @@ def _try(
     """Do the runs of one step of all searches, and judge them."""
     chosen: dict[tuple[float, str], tuple[StudyRun, ...]] = {}
     for rate, keys in wanted.items():
-        value = {f"tasks.{option}": rate if option == "rate" else 1 / rate}
         for key in keys:
+            value = {f"{arrivals(points[key][0].canonical)[0]}.{option}": rate if option == "rate" else 1 / rate}
             samples = [{name: point.canonical[name] for name in ("seed", "repeat")} for point in points[key]]
             changes = [value | sample for sample in samples]
             chosen[rate, key] = read_variants(study, points[key][0], changes, changes).runs

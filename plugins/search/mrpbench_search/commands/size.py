@@ -16,7 +16,7 @@ from mrpbench_search.asking.configurations import only_configuration
 from mrpbench_search.asking.requests import read_whole_study, seeds_of
 from mrpbench_search.saturation.rates import TOLERANCE
 from mrpbench_search.sizing.answer import Load, Row, document, rows_of, sentence, table
-from mrpbench_search.sizing.fleets import smallest
+from mrpbench_search.sizing.fleets import LOOKS, SHARE, smallest
 from mrpbench_search.sizing.held_out import HeldOut, drive_held_out
 from mrpbench_search.sizing.page import write_page
 from mrpbench_search.sizing.prices import Prices, read_prices
@@ -30,8 +30,9 @@ MINUTES = {"h": 60, "hour": 60, "min": 1, "minute": 1}
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
-        f"A fleet serves the orders if fewer than {TOLERANCE:.0%} of them pile up and the 95th percentile of their"
-        " service times is below --p95, each with 95 % confidence over seeds, and no battery runs empty. Exit code: 0"
+        f"A fleet serves the orders if fewer than {TOLERANCE:.0%} of them pile up and {SHARE:.0%} of them are done"
+        " within --p95, each with 95 % confidence over seeds, and no battery runs empty. Fleets of which nothing is"
+        f" shown are repeated with twice as many seeds, up to {2 ** (LOOKS - 1)} times those of the study. Exit code: 0"
         " the smallest fleet is known, 1 it is not, 2 the configuration is wrong, 130 interrupted (the same command"
         " continues)."
     )

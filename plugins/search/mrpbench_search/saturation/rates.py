@@ -45,10 +45,10 @@ class Growth:
         return Verdict.GROWS if self.low > TOLERANCE else Verdict.NOT_SHOWN
 
 
-def growth(shares: Sequence[float]) -> Growth:
-    """Return the growth that the shares of at least two seeds show."""
+def growth(shares: Sequence[float], level: float = LEVEL) -> Growth:
+    """Return the growth that the shares of at least two seeds show, with limits of this confidence each."""
     centre, count = float(np.mean(shares)), len(shares)
-    reach = float(student.ppf(LEVEL, count - 1)) * float(np.std(shares, ddof=1)) / math.sqrt(count)
+    reach = float(student.ppf(level, count - 1)) * float(np.std(shares, ddof=1)) / math.sqrt(count)
     return Growth(centre, centre - reach, centre + reach)
 
 

@@ -37,14 +37,34 @@ def sentence(name: str, fleets: Fleets, load: Load) -> str:
         largest = max(fleets.tried)
         why = f": {fleets.limit}" if fleets.limit else f": {lacking(fleets.tried[largest])} run out first"
         return f"{name}: up to {counted(largest, 'robot')} no fleet is shown to serve {words}{why}"
-    parts = [f"{counted(high, 'robot')}{_chargers(fleets)} serve{'s' if high == 1 else ''} {words}"]
-    if (found := fleets.tried[high].p95) is not None:
-        parts[0] += f" (p95 {found.mean:.0f} s, at most {found.high:.0f} s)"
-    if low < high:
-        parts.append(f"{low} may do, which these runs do not show")
+    first = f"{counted(high, 'robot')}{_chargers(fleets)} serve{'s' if high == 1 else ''} {words}"
+    parts = [first + _in_time(fleets.tried[high])]
+    maybe = range(high - 1, low - 1, -1)
+    parts += [f"{size} may do, which {_evidence(fleets.tried.get(size))}" for size in maybe]
     if low > 1:
-        parts.append(f"{low - 1} {'does' if low == 2 else 'do'} not: {lacking(fleets.tried[low - 1])} run out first")
+        smaller = fleets.tried[low - 1]
+        words = f"{low - 1} {'does' if low == 2 else 'do'} not{_in_time(smaller)}"
+        parts.append(f"{words}: {lacking(smaller)} run out first")
     return f"{name}: {'; '.join(parts)}"
+
+
+def _in_time(found: FleetFigures) -> str:
+    """The share of the orders in time, with the limit that decides."""
+    if found.in_time is None:
+        return ""
+    share = found.in_time
+    limit = f"at most {share.high:.1%}" if found.verdict is Verdict.DOES_NOT else f"at least {share.low:.1%}"
+    return f" ({share.mean:.1%} of them in time, {limit})"
+
+
+def _evidence(found: FleetFigures | None) -> str:
+    """What the runs of an undecided fleet show."""
+    if found is None:
+        return "was not tried"
+    if found.in_time is None:
+        return f"{counted(found.runs, 'run')} do not show"
+    share = found.in_time
+    return f"{counted(found.runs, 'run')} do not show ({share.mean:.1%} [{share.low:.1%}, {share.high:.1%}] in time)"
 
 
 def _chargers(fleets: Fleets) -> str:
@@ -100,8 +120,9 @@ def rows_of(fleets: Fleets, prices: Prices | None) -> list[Row]:
 
 def table(rows: Sequence[Row], currency: str) -> tuple[list[str], list[list[Any]]]:
     """Return the heads and the cells of a table; what no run measures has no column."""
-    heads = ["fleet", "", "orders/h", "p95 [s]", "queues", "busy", "blocked", "runs out"]
+    heads = ["fleet", "", "runs", "orders/h", "p95 [s]", "queues", "busy", "blocked", "runs out"]
     optional: dict[str, Any] = {
+        "in time": lambda row: _limits(row.found.in_time),
         "charging": lambda row: _share(row.found.charging),
         "chargers busy": lambda row: _share(row.found.chargers_busy),
         "empty": lambda row: None if row.found.energy_wh is None else f"{row.found.empty:g}",
@@ -116,10 +137,14 @@ def table(rows: Sequence[Row], currency: str) -> tuple[list[str], list[list[Any]
 
 def _cells(row: Row) -> list[Any]:
     found = row.found
-    p95 = None if found.p95 is None else f"{found.p95.mean:.1f} [{found.p95.low:.1f}, {found.p95.high:.1f}]"
+    p95 = None if found.p95 is None else f"{found.p95:.1f}"
     out = "" if row.verdict is Verdict.SERVES else lacking(found)
     figures = [f"{found.per_hour:.1f}", p95, found.growth.verdict, f"{found.utilisation:.0%}", f"{found.blocked:.0%}"]
-    return [row.name, row.verdict, *figures, out]
+    return [row.name, row.verdict, found.runs, *figures, out]
+
+
+def _limits(found: Limits | None) -> str | None:
+    return None if found is None else f"{found.mean:.1%} [{found.low:.1%}, {found.high:.1%}]"
 
 
 def _share(value: float | None) -> str | None:
@@ -127,8 +152,8 @@ def _share(value: float | None) -> str | None:
 
 
 def estimate(found: Limits | None) -> IntervalEstimate | None:
-    """Return one-sided limits as an interval, for a chart."""
-    return None if found is None else IntervalEstimate(found.mean, found.low, found.high, 1)
+    """Return one-sided limits of a share as an interval in percent, for a chart."""
+    return None if found is None else IntervalEstimate(100 * found.mean, 100 * found.low, 100 * found.high, 1)
 
 
 def document(rows: Sequence[Row]) -> list[Mapping[str, Any]]:

@@ -1,8 +1,9 @@
-"""Which fleets serve the orders, by one-sided limits of means over seeds, and which fleet to try next.
+"""Which fleets serve the orders, by one-sided limits over seeds, and which fleet to try or to repeat next.
 
 A fleet serves them if fewer tasks than `TOLERANCE` pile up (see `mrpbench_search.saturation.rates`) and, where a bound
-is stated, the 95th percentile of the service times is below it. Sizes between one that does not serve the orders and
-one that does are tried, others are not.
+of the 95th percentile of service times is stated, 95 % of the orders are done within it. Sizes between one that does
+not serve the orders and one that does are tried, others are not. Fleets of which nothing is shown are repeated with
+twice as many seeds, at most `LOOKS` times in all; each look has an equal part of the error (Bonferroni's inequality).
 """
 
 import math
@@ -11,6 +12,7 @@ from enum import StrEnum
 
 import attrs
 import numpy as np
+from scipy.stats import beta
 from scipy.stats import t as student
 
 from mrpbench_core.report.statistics.estimate import LEVEL
@@ -19,6 +21,12 @@ from mrpbench_search.saturation.rates import Verdict as Queues
 
 FARTHEST = 64
 """Largest factor between the first fleet and those that are tried."""
+LOOKS = 4
+"""Number of times that the runs of a fleet are judged: with the seeds of the study, then twice as many each time."""
+CONFIDENCE = 1 - (1 - LEVEL) / LOOKS
+"""Of each one-sided limit of one look; that of all looks is `LEVEL`."""
+SHARE = 0.95
+"""Share of the orders that `--p95` bounds."""
 
 
 class Verdict(StrEnum):
@@ -31,7 +39,7 @@ class Verdict(StrEnum):
 
 @attrs.frozen
 class Limits:
-    """A mean with its one-sided limits."""
+    """An estimate with its one-sided limits."""
 
     mean: float
     low: float
@@ -43,14 +51,17 @@ class FleetFigures:
     """What the runs of one fleet show."""
 
     growth: Growth
-    p95: Limits | None
-    """Of the means over seeds of the 95th percentile of service times, seconds; None: a run has none."""
+    in_time: Limits | None
+    """Share of the orders that are done within the bound; None: there is no bound."""
+    p95: float | None
+    """Mean of the 95th percentiles of service times, seconds; None: a run has none."""
     per_hour: float
     utilisation: float
     blocked: float
     """Share of the robots' time in which they do not get on."""
     failed: int
     """Runs that did not succeed."""
+    runs: int
     lifts: float | None = None
     """Share of the robots' time in which they wait for lifts; None: not measured."""
     energy_wh: float | None = None
@@ -62,20 +73,38 @@ class FleetFigures:
     empty: float = 0.0
     """Robots that ran empty, in the mean of a run."""
 
-    def verdict(self, bound_s: float) -> Verdict:
+    @property
+    def verdict(self) -> Verdict:
         """Compare the figures with the bounds."""
-        late = self.p95 is None or self.p95.low > bound_s
-        if self.failed or self.empty or self.growth.verdict is Queues.GROWS or (math.isfinite(bound_s) and late):
+        late = self.in_time is not None and self.in_time.high < SHARE
+        if self.failed or self.empty or self.growth.verdict is Queues.GROWS or late:
             return Verdict.DOES_NOT
-        in_time = not math.isfinite(bound_s) or (self.p95 is not None and self.p95.high < bound_s)
+        in_time = self.in_time is None or self.in_time.low > SHARE
         return Verdict.SERVES if self.growth.verdict is Queues.BOUNDED and in_time else Verdict.NOT_SHOWN
 
 
-def limits(values: Sequence[float]) -> Limits:
-    """Return the mean of at least two values with its one-sided limits (Student's t)."""
-    centre, count = float(np.mean(values)), len(values)
-    reach = float(student.ppf(LEVEL, count - 1)) * float(np.std(values, ddof=1)) / math.sqrt(count)
-    return Limits(centre, centre - reach, centre + reach)
+def share_in_time(levels: Sequence[float], orders: Sequence[float], confidence: float = CONFIDENCE) -> Limits:
+    """Return the share of the orders that are done in time, with limits of this confidence each.
+
+    It is the ratio of sums over seeds, with the error of a ratio estimator (W. G. Cochran, Sampling Techniques, 3rd
+    ed. 1977, 6.3) and Student's t, because orders of one run depend on one another. The limits are at least as far as
+    those of independent orders (C. J. Clopper, E. S. Pearson, Biometrika 26, 1934), so that few orders that are all in
+    time do not show that all are.
+
+    Args:
+        levels: share of each seed, at least two.
+        orders: number of orders of each seed.
+        confidence: of each one-sided limit.
+    """
+    shares, weights = np.asarray(levels, float), np.asarray(orders, float)
+    total, count = float(weights.sum()), len(shares)
+    share = float(shares @ weights) / total
+    reach = float(student.ppf(confidence, count - 1)) * float(np.std(weights * (shares - share), ddof=1))
+    reach /= float(weights.mean()) * math.sqrt(count)
+    done = share * total
+    low = float(beta.ppf(1 - confidence, done, total - done + 1)) if done > 0 else 0.0
+    high = float(beta.ppf(confidence, done + 1, total - done)) if done < total else 1.0
+    return Limits(share, max(0.0, min(low, share - reach)), min(1.0, max(high, share + reach)))
 
 
 def smallest(verdicts: Mapping[int, Verdict]) -> tuple[int, int | None]:
@@ -85,22 +114,26 @@ def smallest(verdicts: Mapping[int, Verdict]) -> tuple[int, int | None]:
     return max(fails, default=0) + 1, high
 
 
-def next_size(verdicts: Mapping[int, Verdict], first: int, most: int) -> int | None:
-    """Return the fleet to try next, or None if the interval cannot be made shorter.
+def next_size(verdicts: Mapping[int, Verdict], looks: Mapping[int, int], first: int, most: int) -> int | None:
+    """Return the fleet to try or to repeat next, or None if the interval cannot be made shorter.
 
     Args:
         verdicts: of the fleets tried.
+        looks: how often the runs of each were judged.
         first: to begin with.
         most: largest fleet that can be tried.
     """
     if not verdicts:
         return min(first, most)
     low, high = smallest(verdicts)
-    if high is None:
-        largest = max(verdicts)
-        size = min(2 * largest, most)
-        return size if size > largest and size <= first * FARTHEST else None
-    if low == 1 and min(verdicts) > 1:
+    largest = max(verdicts)
+    if high is None and largest < (larger := min(2 * largest, most)) <= first * FARTHEST:
+        return larger
+    if high is not None and low == 1 and min(verdicts) > 1:
         return max(1, min(verdicts) // 2)
-    untried = [size for size in range(low, high) if size not in verdicts]
-    return untried[len(untried) // 2] if untried else None
+    untried = [size for size in range(low, high or low) if size not in verdicts]
+    if untried:
+        return untried[len(untried) // 2]
+    undecided = [size for size in sorted(verdicts) if low <= size < (high or math.inf) and looks[size] < LOOKS]
+    fewest = [size for size in undecided if looks[size] == min(map(looks.__getitem__, undecided))]
+    return fewest[len(fewest) // 2] if fewest else None

@@ -43,9 +43,10 @@ def _charts(rows: Sequence[Row], currency: str) -> str:
     charts = [
         _chart(rows, lambda row: row.found.per_hour, "orders per hour", "Orders that are done."),
         _figure(
-            intervals([(row.name, 0, estimate(row.found.p95)) for row in rows], "p95 [s]", percent=False),
-            "95th percentile of service times, with its one-sided limits.",
+            intervals([(row.name, 0, estimate(row.found.in_time)) for row in rows], "in time [%]", percent=False),
+            "Share of the orders that are done in time, with its one-sided limits.",
         ),
+        _chart(rows, lambda row: row.found.p95, "p95 [s]", "95th percentile of service times, mean of the runs."),
         _chart(rows, lambda row: _percent(row.found.utilisation), "busy [%]", "Share of time with a task."),
         _chart(rows, lambda row: _percent(row.found.blocked), "blocked [%]", "Share of time without getting on."),
         _chart(rows, lambda row: _percent(row.found.charging), "charging [%]", "Share of time at chargers."),

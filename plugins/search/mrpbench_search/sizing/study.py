@@ -1,13 +1,12 @@
 """The parts of a study that a search for a fleet varies: the rate of orders, the robots, and the chargers."""
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from mrpbench_core.engine.loading.runs import StudyRun
 from mrpbench_core.files.errors import InputError
-
-CHARGING = "charging"
-"""The task source of robots with batteries, which holds another."""
+from mrpbench_search.asking.arrivals import CHARGING, arrivals
 
 
 def check_study(points: Sequence[StudyRun]) -> None:
@@ -22,6 +21,8 @@ def check_study(points: Sequence[StudyRun]) -> None:
         raise InputError(f"scenario: {config['scenario']['plugin']!r} has no number of robots", hint="use `random`")
     if len(config["fleet"]) > 1 or config["fleet"][0]["count"] is not None:
         raise InputError("fleet: the number of robots varies, so name one kind of robot without a count")
+    if not any(metric["plugin"] == "tasks" for metric in config["metrics"]):
+        raise InputError("metrics: add the metric `tasks`, which says whether orders pile up")
     if has_batteries(config):
         measured = [metric["energy"] for metric in config["metrics"] if metric["plugin"] == "energy"]
         if not measured:
@@ -44,12 +45,18 @@ def rate_key(config: Mapping[str, Any]) -> str:
     Raises:
         InputError: there is none.
     """
-    key, source = "tasks", config["tasks"]
-    if isinstance(source, dict) and source["plugin"] == CHARGING:
-        key, source = "tasks.tasks", source["tasks"]
-    if not isinstance(source, dict) or "rate" not in source:
+    key, source = arrivals(config)
+    if "rate" not in source:
         raise InputError(f"{key}: the study has no orders with a rate", hint="use `poisson` or `pickup_delivery`")
     return f"{key}.rate"
+
+
+def with_bound(config: Mapping[str, Any], bound_s: float) -> Mapping[str, Any]:
+    """Return a configuration whose metric `tasks` counts the orders that are done within a bound; infinite = none."""
+    if not math.isfinite(bound_s):
+        return config
+    metrics = [each | {"within": bound_s} if each["plugin"] == "tasks" else each for each in config["metrics"]]
+    return {**config, "metrics": metrics}
 
 
 def with_chargers(config: Mapping[str, Any], chargers: int | None) -> dict[str, Any]:

@@ -108,11 +108,11 @@ def test_looks_spend_no_more_than_the_error(candidates, seeds, level):
     assert list(looks.seeds) == sorted(set(looks.seeds))
     assert looks.seeds[-1] == seeds
     for best in range(1, candidates + 1):
-        spent = best * len(looks.seeds) * looks.drop_level(best)
+        spent = best * sum(looks.drop_level(best, look) for look in range(len(looks.seeds)))
         assert spent == pytest.approx(level)
     pairs = math.comb(candidates, 2)
-    assert pairs * len(looks.seeds) * looks.margin_level == pytest.approx(level)
-    assert 0.5 ** looks.seeds[0] <= looks.drop_level(candidates) / (candidates - 1)
+    assert pairs * sum(map(looks.margin_level, range(len(looks.seeds)))) == pytest.approx(level)
+    assert 0.5 ** looks.seeds[0] <= looks.drop_level(candidates, 0) / (candidates - 1)
 
 
 @given(st.lists(st.floats(1e-6, 1), min_size=1, max_size=20))
@@ -123,4 +123,5 @@ def test_tests_that_can_be_significant_share_the_level(least):
 
 def test_levels_grow_as_candidates_are_dropped():
     looks = Looks(seeds=(10, 20), candidates=4, level=0.05)
-    assert looks.drop_level(2) == 2 * looks.drop_level(4)
+    assert looks.drop_level(2, 0) == 2 * looks.drop_level(4, 0)
+    assert looks.drop_level(2, 0) == 2 * looks.drop_level(2, 1)

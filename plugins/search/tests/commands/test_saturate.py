@@ -72,6 +72,29 @@ def test_mistakes_are_one_line(shuttle, words, message):
     assert len(errors.splitlines()) == 1
 
 
+CHARGING = """\
+{plugin: charging, tasks: {plugin: poisson, rate: 30, service: 5 s}, energy: {chargers: ['*'],
+ battery: {capacity: 0.5, voltage: 10, ambient: 100, charging_current: 20}}}"""
+
+
+def test_the_tasks_of_robots_with_batteries_have_a_rate(shuttle):
+    words = (
+        "world=office",
+        "roadmap=graph",
+        f"tasks={CHARGING}",
+        "seed=0..1",
+        "--resolution",
+        "1",
+        "--budget",
+        "2runs",
+    )
+    code, output, errors = shuttle("saturate", "shuttle.yaml", *words, "--json")
+    assert code == 1, errors
+    (found,) = json.loads(output)["combinations"]
+    assert [each["rate"] for each in found["tried"]] == [30]
+    assert found["tried"][0]["mean"] > 0.5  # two errands take more than the 2 s between tasks
+
+
 def test_runs_that_did_not_succeed_are_counted():
     search = Search("all", 8.0)
     ends = enumerate(["succeeded", "execution_aborted"])

@@ -31,16 +31,16 @@ def floor(mrpbench):
 
 
 def test_robots_are_added_until_the_budget_is_spent(floor):
-    words = ("size", "floor.yaml", "--orders", "360/h", "--p95", "3min", "--budget", "6runs", "--json")
+    words = ("size", "floor.yaml", "--orders", "1200/h", "--p95", "1min", "--budget", "6runs", "--json")
     code, output, errors = floor(*words)
     assert code == 1, errors
     answer = json.loads(output)
     verdicts = {fleet["robots"]: fleet["verdict"] for fleet in answer["fleets"]}
     assert list(verdicts) == [1, 2]
-    assert verdicts[1] == "does not"  # an order takes 10 s and the way, and there are six a minute
+    assert verdicts[1] == "does not"  # an order takes 10 s and the way, and there are twenty a minute
     assert answer["interval"] == [2 + (verdicts[2] == "does not"), None]
     assert answer["ended"] == "the budget is spent"
-    assert answer["answer"].startswith("floor: up to 2 robots no fleet is shown to serve 360/h orders within 3min: ")
+    assert answer["answer"].startswith("floor: up to 2 robots no fleet is shown to serve 1200/h orders within 1min: ")
     code, again, errors = floor(*words)
     assert again == output
     assert "[1/" not in errors

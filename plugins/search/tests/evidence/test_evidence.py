@@ -133,7 +133,7 @@ def test_the_same_file_twice_is_identical_and_a_slower_planner_is_worse(room):
 def test_the_steps_of_the_action_write_the_table_of_both_candidates(room, tmp_path):
     action = load(Path(__file__).parents[2] / "action" / "action.yml").data
     install, compare = (step["run"] for step in action["runs"]["steps"])
-    assert install == "pip install mrpbench"
+    assert install == "pip install 'mrpbench[search]'"
     command = f"{sys.executable} -m mrpbench_core.cli.main"
     script = tmp_path / "mrpbench"
     script.write_text(f"#!/bin/sh\nexec {command} compare --by '' --markdown --metrics planning.sum_of_costs a b\n")

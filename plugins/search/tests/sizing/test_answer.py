@@ -11,11 +11,12 @@ from mrpbench_search.sizing.search import Fleets
 
 LOAD = Load(orders="60/h", p95="4min", bound_s=240.0)
 BOUNDED, GROWING, UNSURE = Growth(0.0, -0.01, 0.02), Growth(0.3, 0.2, 0.4), Growth(0.06, 0.0, 0.1)
+IN_TIME, LATE, EITHER = Limits(0.98, 0.96, 0.99), Limits(0.8, 0.7, 0.9), Limits(0.95, 0.93, 0.97)
 
 
-def figures(growth=BOUNDED, p95=200.0, **values):
-    fields = {"per_hour": 60, "utilisation": 0.8, "blocked": 0.05, "failed": 0}
-    return FleetFigures(growth=growth, p95=Limits(p95, p95 - 5, p95 + 5), **fields | values)
+def figures(growth=BOUNDED, in_time=IN_TIME, **values):
+    fields = {"per_hour": 60, "utilisation": 0.8, "blocked": 0.05, "failed": 0, "runs": 8, "p95": 200.0}
+    return FleetFigures(growth=growth, in_time=in_time, **fields | values)
 
 
 def search(tried, chargers=None):
@@ -26,14 +27,23 @@ def search(tried, chargers=None):
 
 
 def test_the_smallest_fleet_comes_first_and_then_what_one_fewer_lacks():
-    fleets = search({3: figures(GROWING, 900.0, utilisation=0.99), 4: figures()})
+    fleets = search({3: figures(GROWING, LATE, utilisation=0.99), 4: figures()})
     assert sentence("hall", fleets, LOAD) == (
-        "hall: 4 robots serve 60/h orders within 4min (p95 200 s, at most 205 s); 3 do not: robots run out first"
+        "hall: 4 robots serve 60/h orders within 4min (98.0% of them in time, at least 96.0%); 3 do not (80.0% of them"
+        " in time, at most 90.0%): robots run out first"
+    )
+
+
+def test_fleets_that_may_do_come_with_what_is_known_of_them():
+    fleets = search({3: figures(BOUNDED, EITHER, runs=64), 2: figures(GROWING, None), 4: figures(BOUNDED, None)})
+    assert sentence("hall", fleets, LOAD) == (
+        "hall: 4 robots serve 60/h orders within 4min; 3 may do, which 64 runs do not show (95.0% [93.0%, 97.0%] in"
+        " time); 2 do not: aisles run out first"
     )
 
 
 def test_the_fewest_chargers_belong_to_the_fleet():
-    tried = {3: figures(GROWING, 900.0), 4: figures(chargers_busy=0.4)}
+    tried = {3: figures(GROWING, LATE), 4: figures(chargers_busy=0.4)}
     fleets = search(tried, {4: figures(chargers_busy=0.4), 2: figures(), 1: figures(UNSURE)})
     assert sentence("hall", fleets, LOAD).startswith("hall: 4 robots with 2 chargers (1 may do) serve 60/h")
     names = [row.name for row in rows_of(fleets, None)]
@@ -57,13 +67,13 @@ def test_what_runs_out_first(values, word):
 
 
 def test_a_fleet_with_an_empty_battery_serves_nothing():
-    assert figures().verdict(240.0) is Verdict.SERVES
-    assert figures(empty=0.5).verdict(240.0) is Verdict.DOES_NOT
+    assert figures().verdict is Verdict.SERVES
+    assert figures(empty=0.5).verdict is Verdict.DOES_NOT
 
 
 def test_a_page_has_the_answer_and_a_chart_for_each_quantity(tmp_path):
     prices = Prices(currency="EUR", robot=10000, service_hours=10000)
-    fleets = search({3: figures(GROWING, 900.0), 4: figures(energy_wh=50.0, charging=0.2)})
+    fleets = search({3: figures(GROWING, LATE), 4: figures(energy_wh=50.0, charging=0.2)})
     rows = rows_of(fleets, prices)
     heads, cells = table(rows, "EUR")
     assert heads[-3:] == ["empty", "Wh/h", "EUR/h"]
@@ -72,14 +82,23 @@ def test_a_page_has_the_answer_and_a_chart_for_each_quantity(tmp_path):
     page = (tmp_path / "size.html").read_text()
     assert "hall: 4 &lt; 5" in page
     assert "held &lt;out&gt;" in page
-    assert page.count("<figure>") == 7
+    assert page.count("<figure>") == 8
 
 
 def test_a_held_out_run_says_whether_it_serves():
     run = HeldOut(
-        robots=4, chargers=2, hours=10, seed=5, status="succeeded", p95_s=210.0, growth=0.01, empty=0.0, serves=True
+        robots=4,
+        chargers=2,
+        hours=10,
+        seed=5,
+        status="succeeded",
+        p95_s=210.0,
+        in_time=0.961,
+        growth=0.01,
+        empty=0.0,
+        serves=True,
     )
     assert str(run) == (
-        "held out, 10 h on seed 5: 4 robots with 2 chargers serve the orders (succeeded, p95 210 s, 1.0% of the orders"
-        " pile up)"
+        "held out, 10 h on seed 5: 4 robots with 2 chargers serve the orders (succeeded, p95 210 s, 96.1% of the orders"
+        " in time, 1.0% pile up)"
     )

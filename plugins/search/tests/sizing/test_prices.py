@@ -19,8 +19,8 @@ kwh: 0.3
 
 
 def figures(**values):
-    fields = {"growth": Growth(0, 0, 0), "p95": None, "per_hour": 60, "utilisation": 0.5, "blocked": 0.1, "failed": 0}
-    return FleetFigures(**fields | values)
+    fields = {"per_hour": 60, "utilisation": 0.5, "blocked": 0.1, "failed": 0, "runs": 3}
+    return FleetFigures(growth=Growth(0, 0, 0), in_time=None, p95=None, **fields | values)
 
 
 def test_an_hour_is_its_share_of_purchases_upkeep_standstill_and_energy(tmp_path):
