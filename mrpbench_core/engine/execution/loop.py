@@ -114,6 +114,7 @@ class ExecutionLoop(ControlLoop):
         estimate = self._checks.estimate(self._localizer.update(self._now, odometry, scans, truth))
         level = state.level
         self._observation = FleetObservation(estimate=estimate, odometry=odometry, level=level, scans=scans)
+        inputs.replanner.observe(self._observation)
 
     def _dispatch(self) -> None:
         """Release segments and grant resources; ask for a new plan, and adopt one that is due.

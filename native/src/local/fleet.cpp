@@ -11,7 +11,8 @@ Fleet::Fleet(std::vector<Segment> walls, double reach, int threads)
     : walls_(std::make_shared<const StaticMap>(std::move(walls), reach)), team_(threads) {}
 
 void Fleet::add(const RobotOptions& options, std::unique_ptr<Controller> controller) {
-  robots_.push_back(std::make_unique<Robot>(Robot{Costmap(options.costmap, walls_), std::move(controller), options}));
+  robots_.push_back(
+      std::make_unique<Robot>(Robot{Costmap(options.costmap, walls_), std::move(controller), options, -1e9, {}}));
 }
 
 /// Update a costmap as often as its options say.
@@ -42,8 +43,10 @@ void Fleet::command(double now, std::span<const Request> requests, std::span<Twi
     refresh(robot, now, it.pose);
     Extra more;
     if (extra) more = [&](const Samples& all, std::span<double> totals) { extra(it.robot, all, totals); };
-    const Situation situation{now, it.pose, it.twist, it.path, &robot.costmap};
+    const Situation situation{now,     it.pose,        it.twist,
+                              it.path, &robot.costmap, robot.forecast.size() > 0 ? &robot.forecast : nullptr};
     commands[i] = robot.controller->command(situation, more).value_or(Twist{nan, nan});
+    robot.forecast = {};
   };
   if (extra) {
     for (std::size_t i = 0; i < requests.size(); ++i) answer(i);

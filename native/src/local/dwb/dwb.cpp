@@ -130,7 +130,7 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
     const int ahead = whole_below(looks_ahead_ / frame.resolution) + 1;
     its.path.spread(frame, {low.x - ahead, low.y - ahead}, {high.x + ahead, high.y + ahead});
   }
-  const Scene scene{it.now, pose, measured, *goal_, path.tolerance, it.costmap, &its.path, &its.ends};
+  const Scene scene{it.now, pose, measured, *goal_, path.tolerance, it.costmap, &its.path, &its.ends, it.forecast};
   score(scene, its, extra);
   chosen_ = best(scene, its);
   const Twist command = chosen_ ? its.all.twist(*chosen_) : Twist{};
