@@ -168,7 +168,9 @@ class Replanner:
             late += later
         due += late
         self._last, self._not_before = now, due
-        new_plan = None if fault or result.plan is None else Plan(paths=result.plan.paths[: len(problem)])
+        new_plan = None if fault else result.plan
+        if new_plan is not None and len(new_plan.paths) > len(problem):
+            new_plan = Plan(paths=new_plan.paths[: len(problem)])
         leads = np.ones(len(problem), bool) if new_plan is None else leads_to_goals(problem, new_plan)
         router = attrs.evolve(self._router, problem=problem, final_yaw=np.where(leads, to.yaw, np.nan))
         routes: Sequence[Route] = () if new_plan is None else router(new_plan)
@@ -226,7 +228,10 @@ def replanning_fault(config: RunConfig) -> str | None:
         return "does not support commitments, which replanning needs; `rolling_horizon` plans with it"
     if config.executes and replanning.window is not None and Feature.HORIZON not in config.planner.supports:
         return "does not support a horizon, which `replanning.window` needs; `rolling_horizon` plans with it"
-    constrains = config.executes and wanted and replanning.prediction is not None
-    if constrains and (config.planner.chooses_goals or Feature.PROFILES not in config.planner.supports):
-        return "does not support `replanning.prediction`, which adds robots with a profile and goals of their own"
+    planner = config.planner
+    plain = Feature.PROFILES in planner.supports and not (planner.chooses_goals or planner.reads_remaining)
+    if config.executes and wanted and replanning.prediction is not None and not plain:
+        return (
+            "does not support `replanning.prediction`, which adds robots with a profile, goals and paths of their own"
+        )
     return None
