@@ -147,7 +147,7 @@ class Occupancy:
         return free
 
 
-_EMPTY = RobotPath(edge=np.empty(0), enter=np.empty(0), leave=np.empty(0))
+_EMPTY = RobotPath(edge=np.empty(0, np.int32), enter=np.empty(0, np.int64), leave=np.empty(0, np.int64))
 
 
 def _path(stays: list[Stay], there: int, begin: int | None) -> RobotPath:
