@@ -24,7 +24,7 @@ from mrpbench_core.plugins.provenance import origin
 IDLE = "has no effect: "
 BETWEEN_STEPS = (
     *("assigner", "plan_filter", "control_rate", "goal_tolerance", "grant_truth"),
-    *(f"replanning.{name}" for name in ("delay", "period", "window", "latency", "interval", "parking")),
+    *(f"replanning.{name}" for name in ("delay", "period", "window", "latency", "prediction", "interval", "parking")),
 )
 """Keys that do not change what a discrete simulator does."""
 NO_SIMULATOR = f"{IDLE}there is no simulator"
@@ -164,6 +164,8 @@ def _of_executions(config: RunConfig) -> Iterator[tuple[str, str]]:
         yield "grant_truth", f"{IDLE}{_name(localizer)} does not need it"
     if config.replanning.delay is None and config.replanning.period is None:
         yield "replanning.latency", f"{IDLE}neither `delay` nor `period` calls for new plans"
+        if config.tasks is None and not config.faults:
+            yield "replanning.prediction", f"{IDLE}nothing calls for new plans"
     if not config.crowds:
         yield "crowds_apart", f"{IDLE}there are no crowds"
     for block in ("delays", "faults"):

@@ -25,6 +25,7 @@ from mrpbench_core.api import (
     between,
     option,
 )
+from mrpbench_core.api.predictor import Predictor
 from mrpbench_core.config.delays import Delays
 from mrpbench_core.config.faults import Faults
 from mrpbench_core.files.robot import robot_file, robot_reads
@@ -195,6 +196,9 @@ class Replanning:
         "time; none: `limits.planning`",
         unit="s",
         validator=validators.optional(validators.gt(0)),
+    )
+    prediction: Predictor | None = option(
+        None, help="predicts where people and others who are not planned will be, for new plans to keep away from"
     )
     interval: float = option(
         1.0, help="least time between two plans because of `tasks`", unit="s", validator=validators.ge(0)

@@ -5,11 +5,12 @@ from mrpbench_core.plugins.kinds import COMMANDS
 
 _CRITICS = (
     *("RotateToGoal", "Oscillation", "BaseObstacle", "ObstacleFootprint", "GoalAlign"),
-    *("PathAlign", "PathDist", "GoalDist", "PreferForward", "Twirling"),
+    *("PathAlign", "PathDist", "GoalDist", "PredictedObstacle", "PreferForward", "Twirling"),
 )
 _MPPI_CRITICS = (
     *("ConstraintCritic", "CostCritic", "GoalAngleCritic", "GoalCritic", "ObstaclesCritic", "PathAlignCritic"),
-    *("PathAngleCritic", "PathFollowCritic", "PreferForwardCritic", "TwirlingCritic", "VelocityDeadbandCritic"),
+    *("PathAngleCritic", "PathFollowCritic", "PredictedObstacleCritic", "PreferForwardCritic"),
+    *("TwirlingCritic", "VelocityDeadbandCritic"),
 )
 _METRICS = (
     *("planning", "execution", "barn", "clearance", "contact", "deadlock", "delay", "draws", "efficiency"),
@@ -47,6 +48,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.mppi_critics": _MPPI_CRITICS,
         "mrpbench.navigators": ("waypoints",),
         "mrpbench.planners": _PLANNERS,
+        "mrpbench.predictors": ("constant_velocity", "social_force"),
         "mrpbench.recoveries": ("back_up", "clear", "spin", "wait"),
         "mrpbench.scenarios": ("barn", "movingai"),
         "mrpbench.simulators": ("planar",),

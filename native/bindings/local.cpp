@@ -89,6 +89,23 @@ void see(Fleet& self, double now, const Vector<std::int32_t>& robots, const Matr
   self.see(now, rows<std::int32_t>(robots), rows<Pose>(poses), {ranges.data(), ranges.size()});
 }
 
+/// The forecast of each robot; `robots` are those of the objects, in ascending order.
+void foresee(Fleet& self, const Vector<std::int32_t>& robots,
+             const nb::ndarray<const double, nb::shape<-1, -1, 2>, nb::c_contig, nb::device::cpu>& places,
+             const Vector<double>& radius, double step) {
+  const std::size_t size = robots.size(), count = places.shape(1);
+  require(places.shape(0) == size && radius.size() == size && count > 1 && step > 0, "places and a radius for each");
+  const auto* const all = reinterpret_cast<const Point*>(places.data());
+  for (std::size_t first = 0, last = 0; first < size; first = last) {
+    const std::int32_t robot = robots.data()[first];
+    require(robot >= 0 && static_cast<std::size_t>(robot) < self.size(), "there is no such robot");
+    while (last < size && robots.data()[last] == robot) ++last;
+    self.foresee(
+        static_cast<std::size_t>(robot),
+        {step, count, {all + first * count, all + last * count}, {radius.data() + first, radius.data() + last}});
+  }
+}
+
 Output array_of(const Array& array) {
   auto* const kept = new std::vector<double>(array.values);
   const nb::capsule owner(kept, [](void* it) noexcept { delete static_cast<std::vector<double>*>(it); });
@@ -174,6 +191,7 @@ NB_MODULE(local, module) {
           },
           nb::kw_only(), "settings"_a, "footprint"_a)
       .def("see", &see, "now"_a, "robots"_a, "pose"_a, "ranges"_a)
+      .def("foresee", &foresee, "robots"_a, "places"_a, "radius"_a, "step"_a)
       .def("command", &command, "seen"_a, "score"_a = nb::none())
       .def("clear", &Fleet::clear, "robot"_a)
       .def("is_free",

@@ -5,6 +5,8 @@ import math
 import attrs
 import numpy as np
 
+from mrpbench_core.api.predictor import PredictorSession
+from mrpbench_core.engine.contract_checks import check_returned
 from mrpbench_core.engine.drive.plan import budget_of, call_planner
 from mrpbench_core.engine.execution.replanning import Replanner
 from mrpbench_core.engine.stage import RunEnded, RunInputs
@@ -42,6 +44,10 @@ def replanner_of(inputs: RunInputs, context: RunContext, router: Router) -> Repl
 
     assert context.result.plan is not None
     planner, problem, plan = config.planner, context.problem, context.result.plan
+    predictor, prediction = config.replanning.prediction, None
+    if predictor is not None:
+        started = predictor.start(context.fleet.robots, context.world)
+        prediction = check_returned(predictor, started, PredictorSession)
     return Replanner(
         config.replanning,
         ask,
@@ -51,6 +57,7 @@ def replanner_of(inputs: RunInputs, context: RunContext, router: Router) -> Repl
         planner.supports,
         reads_remaining=planner.reads_remaining,
         chooses_goals=planner.chooses_goals,
+        prediction=prediction,
     )
 
 

@@ -6,11 +6,13 @@ from collections.abc import Callable, Sequence
 import attrs
 import numpy as np
 
+from mrpbench_core.api.predictor import PredictorSession
 from mrpbench_core.config.settings import Replanning, RunConfig
 from mrpbench_core.engine.execution.commitments import commitments, not_ahead, remaining
 from mrpbench_core.engine.execution.cutting import driven, without
 from mrpbench_core.engine.execution.destinations import Destinations
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
+from mrpbench_core.model.execution.observation import FleetObservation
 from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import Paths, Plan, PlanResult
@@ -61,6 +63,7 @@ class Replanner:
         supports: features that the planner supports; with `since`, plans leave out what robots drove long ago.
         reads_remaining: the planner uses what remains of the plan in force.
         chooses_goals: the planner decides where robots go.
+        prediction: of what no plan moves; new plans keep away from it where they can.
     """
 
     def __init__(
@@ -73,12 +76,13 @@ class Replanner:
         supports: frozenset[Feature] = frozenset(),
         reads_remaining: bool = False,
         chooses_goals: bool = False,
+        prediction: PredictorSession | None = None,
     ) -> None:
         self.supports, self.yaw = supports, router.final_yaw
         self._cuts = Feature.SINCE in supports and router.plan_filter == "none"  # which may shift waypoints anywhere
         self._reads_remaining, self._chooses_goals = reads_remaining, chooses_goals
         self._settings = settings
-        self._ask = ask
+        self._ask, self._prediction = ask, prediction
         self._router = router
         self._last = 0.0
         self._retry = max(RETRY_S, settings.delay or 0.0, settings.period or 0.0)
@@ -100,6 +104,11 @@ class Replanner:
         self._arrival: Int = self._first[:-1].copy()
         self._arrival[self.moves.robot] = self._first[self.moves.robot] + self.moves.segment + 1  # the last move counts
         self._leave: Int = np.append(self._paths.leave, 0)  # one more to index at the end
+
+    def observe(self, observation: FleetObservation) -> None:
+        """Take what the robots see now."""
+        if self._prediction is not None and observation.scans:
+            self._prediction.observe(observation.estimate.pose, observation.scans)
 
     def reason(self, now: float, view: FleetView, wish: str | None) -> str | None:
         """Return the reason why a new plan is needed now, or None; `wish` is that of others."""
@@ -151,10 +160,17 @@ class Replanner:
             problem = attrs.evolve(problem, horizon=horizon)
         problem = attrs.evolve(problem, goals=((),) * len(problem) if self._chooses_goals else to.goals)
         problem = attrs.evolve(problem, features=features_of(problem) | (self.problem.features & {Feature.FOOTPRINTS}))
-        result, fault, late = self._ask(attrs.evolve(problem, roadmap=roadmap))
+        asked = attrs.evolve(problem, roadmap=roadmap)
+        constrained = asked if self._prediction is None else self._prediction.constrained(asked, now)
+        result, fault, late = self._ask(constrained)
+        if fault and constrained is not asked:
+            result, fault, later = self._ask(asked)
+            late += later
         due += late
         self._last, self._not_before = now, due
         new_plan = None if fault else result.plan
+        if new_plan is not None and len(new_plan.paths) > len(problem):
+            new_plan = Plan(paths=new_plan.paths[: len(problem)])
         leads = np.ones(len(problem), bool) if new_plan is None else leads_to_goals(problem, new_plan)
         router = attrs.evolve(self._router, problem=problem, final_yaw=np.where(leads, to.yaw, np.nan))
         routes: Sequence[Route] = () if new_plan is None else router(new_plan)
@@ -212,4 +228,10 @@ def replanning_fault(config: RunConfig) -> str | None:
         return "does not support commitments, which replanning needs; `rolling_horizon` plans with it"
     if config.executes and replanning.window is not None and Feature.HORIZON not in config.planner.supports:
         return "does not support a horizon, which `replanning.window` needs; `rolling_horizon` plans with it"
+    planner = config.planner
+    plain = Feature.PROFILES in planner.supports and not (planner.chooses_goals or planner.reads_remaining)
+    if config.executes and wanted and replanning.prediction is not None and not plain:
+        return (
+            "does not support `replanning.prediction`, which adds robots with a profile, goals and paths of their own"
+        )
     return None

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "mrpbench_local/forecast.hpp"
 #include "mrpbench_local/path/path.hpp"
 #include "mrpbench_local/robot_options.hpp"
 
@@ -23,6 +24,8 @@ struct Situation {
   Twist twist;
   Path path;
   const Costmap* costmap = nullptr;
+  /// nullptr = nothing is predicted.
+  const Forecast* forecast = nullptr;
 };
 
 /// Numbers in the order of rows, with the size of each dimension.

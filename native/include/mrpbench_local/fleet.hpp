@@ -38,6 +38,12 @@ class Fleet {
   void command(double now, std::span<const Request> requests, std::span<Twist> commands,
                const ExtraOfRobot& extra = {});
 
+  /// What one robot predicts from now on, for the next call of `command` alone.
+  void foresee(std::size_t robot, Forecast forecast) {
+    robots_.at(robot)->forecast = std::move(forecast);
+    robots_.at(robot)->foresees = true;
+  }
+
   void clear(std::size_t robot) { robots_.at(robot)->costmap.clear(); }
   bool is_free(std::size_t robot, Pose pose) const;
   std::optional<std::vector<Point>> reroute(std::size_t robot, Point place, const Path& path) const;
@@ -56,6 +62,8 @@ class Fleet {
     std::unique_ptr<Controller> controller;
     RobotOptions options;
     double updated = -1e9;
+    Forecast forecast;
+    bool foresees = false;
   };
   static void refresh(Robot& robot, double now, Pose pose);
   static void fetch(const Robot& robot);

@@ -45,9 +45,10 @@ Point nearest_velocity(std::span<const HalfPlane> planes, std::size_t hard, doub
 
 class Walkers {
  public:
-  /// People with `radius`, largest speeds and groups (-1 = none), at places that are free.
+  /// People with `radius`, largest speeds and groups (-1 = none), at places that are free, with `velocities` (none =
+  /// all stand).
   Walkers(std::vector<Segment> segments, std::vector<double> radius, std::vector<double> speed, std::vector<int> group,
-          std::vector<Point> places, const WalkerOptions& options);
+          std::vector<Point> places, const WalkerOptions& options, std::vector<Point> velocities = {});
 
   /// How a person regards the robots.
   enum Regard : unsigned char { as_people, as_obstacles, not_at_all };

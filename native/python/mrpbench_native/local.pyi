@@ -35,6 +35,17 @@ class Fleet:
         self, now: float, robots: NDArray[np.int32], pose: NDArray[np.float64], ranges: NDArray[np.float64]
     ) -> None:
         """Mark scans f8[k,beams] of `robots` i4[k] in the costmaps; `pose` f8[n,3] is that of the whole fleet."""
+    def foresee(
+        self,
+        robots: NDArray[np.int32],
+        places: NDArray[np.float64],
+        radius: NDArray[np.float64],
+        step: float,
+    ) -> None:
+        """Tell robots where discs with `radius` f8[k] will be, for critics in the next call of `command`.
+
+        `robots` i4[k], ascending, regard them; `places` f8[k,t,2] are those from now on, `step` seconds apart.
+        """
     def command(
         self,
         seen: Any,

@@ -11,7 +11,8 @@ Fleet::Fleet(std::vector<Segment> walls, double reach, int threads)
     : walls_(std::make_shared<const StaticMap>(std::move(walls), reach)), team_(threads) {}
 
 void Fleet::add(const RobotOptions& options, std::unique_ptr<Controller> controller) {
-  robots_.push_back(std::make_unique<Robot>(Robot{Costmap(options.costmap, walls_), std::move(controller), options}));
+  robots_.push_back(
+      std::make_unique<Robot>(Robot{Costmap(options.costmap, walls_), std::move(controller), options, -1e9, {}, false}));
 }
 
 /// Update a costmap as often as its options say.
@@ -49,9 +50,12 @@ void Fleet::command(double now, std::span<const Request> requests, std::span<Twi
     if (i + 2 < requests.size()) fetch(*robots_[requests[i + 2].robot]);
     if (!robot.controller) throw std::invalid_argument("a robot without a controller cannot be commanded");
     refresh(robot, now, it.pose);
+    if (!robot.foresees) robot.forecast = {};
+    robot.foresees = false;
     Extra more;
     if (extra) more = [&](const Samples& all, std::span<double> totals) { extra(it.robot, all, totals); };
-    const Situation situation{now, it.pose, it.twist, it.path, &robot.costmap};
+    const Situation situation{now,     it.pose,        it.twist,
+                              it.path, &robot.costmap, robot.forecast.size() > 0 ? &robot.forecast : nullptr};
     commands[i] = robot.controller->command(situation, more).value_or(Twist{nan, nan});
   };
   if (extra) {

@@ -44,18 +44,20 @@ Description<WalkerOptions> WalkerOptions::description() {
 }
 
 Walkers::Walkers(std::vector<Segment> segments, std::vector<double> radius, std::vector<double> speed,
-                 std::vector<int> group, std::vector<Point> places, const WalkerOptions& options)
+                 std::vector<int> group, std::vector<Point> places, const WalkerOptions& options,
+                 std::vector<Point> velocities)
     : segments_(std::move(segments)),
       radius_(std::move(radius)),
       speed_(std::move(speed)),
       group_(std::move(group)),
       places_(std::move(places)),
-      velocities_(places_.size()),
+      velocities_(std::move(velocities)),
       next_(places_.size()),
       options_(options),
       buckets_(segments_, kWallSight, 1),
       hash_(options.sight / 2) {
   const std::size_t count = places_.size();
+  velocities_.resize(count);
   require(radius_.size() == count && speed_.size() == count && group_.size() == count, "one entry for each person");
   for (const double it : radius_) require(it > 0 && std::isfinite(it), "radii must be positive");
   for (const double it : speed_) require(it >= 0 && std::isfinite(it), "speeds must not be negative");

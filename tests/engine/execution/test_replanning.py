@@ -1,15 +1,16 @@
 """New plans during execution: when they are wanted, when they take effect, and what happens without one."""
 
+import attrs
 import numpy as np
 import pytest
 
 from mrpbench_core.config.settings import Replanning
 from mrpbench_core.config.study import load_study
 from mrpbench_core.engine.execution.destinations import Destinations
-from mrpbench_core.engine.execution.replanning import RETRY_S, Replanner
+from mrpbench_core.engine.execution.replanning import RETRY_S, Replanner, replanning_fault
 from mrpbench_core.engine.run import execute
 from mrpbench_core.model.execution.orders import FleetView
-from mrpbench_core.model.planning.plan import PlanResult, PlanStatus
+from mrpbench_core.model.planning.plan import Plan, PlanResult, PlanStatus
 from mrpbench_core.model.runs.routing import Router
 from mrpbench_core.store.paths import RunPaths
 from mrpbench_core.store.recording import Recording
@@ -71,10 +72,11 @@ def view(reached):
     )
 
 
-def replans(run_context, ask=None, **settings):
+def replans(run_context, ask=None, prediction=None, **settings):
     problem, plan = run_context.problem, run_context.result.plan
     router = Router(problem, np.full(len(problem), np.nan), np.full(len(problem.roadmap.edges), np.inf))
-    return Replanner(Replanning(**settings), ask or (lambda _: (run_context.result, None, 0.0)), router, problem, plan)
+    ask = ask or (lambda _: (run_context.result, None, 0.0))
+    return Replanner(Replanning(**settings), ask, router, problem, plan, prediction=prediction)
 
 
 def request(asked, now, reason):
@@ -82,6 +84,58 @@ def request(asked, now, reason):
     problem = asked.problem
     to = Destinations(goals=problem.goals, yaw=asked.yaw, errands=((),) * len(problem))
     asked.request(now, reason, view([0, 0]), np.zeros(2, np.int32), to, problem.roadmap)
+
+
+class OneMore:
+    """A prediction that adds a robot to problems."""
+
+    def constrained(self, problem, now):
+        assert now == 4.0
+        both = {name: np.append(getattr(problem, name), getattr(problem, name)[:1]) for name in ("start", "ready")}
+        return attrs.evolve(problem, goals=(*problem.goals, problem.goals[0]), **both)
+
+
+def test_new_plans_are_asked_for_with_what_is_predicted_and_lead_the_robots_alone(run_context):
+    asked_for = []
+
+    def ask(problem):
+        asked_for.append(len(problem))
+        paths = run_context.result.plan.paths
+        return attrs.evolve(run_context.result, plan=Plan(paths=[*paths, paths[0]])), None, 0.0
+
+    asked = replans(run_context, ask, OneMore(), period=4.0)
+    request(asked, 4.0, "4 s have passed")
+    assert asked_for == [3]
+    revision = asked.take_due(4.0)
+    assert (len(revision.problem), len(revision.plan.paths)) == (2, 2)
+
+
+def test_a_planner_that_cannot_keep_away_from_what_is_predicted_is_asked_without_it(run_context):
+    asked_for = []
+
+    def ask(problem):
+        asked_for.append(len(problem))
+        if len(problem) == 3:
+            return PlanResult(status=PlanStatus.GAVE_UP), "no plan", 0.5
+        return run_context.result, None, 0.25
+
+    asked = replans(run_context, ask, OneMore(), period=4.0)
+    request(asked, 4.0, "4 s have passed")
+    assert asked_for == [3, 2]
+    assert asked.take_due(4.5) is None
+    assert not asked.take_due(4.75).fault
+
+
+@pytest.mark.parametrize(("planner", "fits"), [("prioritized", True), ("token_passing", False), ("example", False)])
+def test_planners_that_cannot_be_given_what_is_predicted_are_refused(tmp_path, planner, fits):
+    pytest.importorskip("mrpbench_predictors_tracking")
+    text = (
+        f"world: office\nplanner: {planner}\nscenario: {{plugin: random, robots: 2}}\n"
+        "replanning: {period: 3, prediction: constant_velocity}\n"
+    )
+    (tmp_path / "study.yaml").write_text(text)
+    (config,) = (run.config for run in load_study(tmp_path / "study.yaml").runs)
+    assert (replanning_fault(config) is None) is fits
 
 
 def test_a_plan_is_kept_unless_the_configuration_says_otherwise(run_context):

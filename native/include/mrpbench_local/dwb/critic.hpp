@@ -8,6 +8,7 @@
 
 #include "mrpbench_local/costmap/costmap.hpp"
 #include "mrpbench_local/dwb/trajectories.hpp"
+#include "mrpbench_local/forecast.hpp"
 #include "mrpbench_local/path/path_grid.hpp"
 
 namespace mrpbench::local {
@@ -24,6 +25,7 @@ struct Scene {
   const Costmap* costmap = nullptr;
   const PathGrid* path = nullptr;
   EndCells* ends = nullptr;
+  const Forecast* forecast = nullptr;
 };
 
 /// Why a trajectory must not be driven; empty = it may.

@@ -15,6 +15,7 @@ CriticKind path_align();
 CriticKind goal_align();
 CriticKind prefer_forward();
 CriticKind twirling();
+CriticKind predicted_obstacle();
 
 /// Critics of the class `C`, which is made from `C::Options`.
 template <class C>

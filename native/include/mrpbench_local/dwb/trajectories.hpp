@@ -58,6 +58,8 @@ class Trajectories {
   /// Unit vector along the last pose's heading, once last poses are computed.
   Point heading(std::size_t i) const { return {exact_.heading_x[i], exact_.heading_y[i]}; }
   int steps(Twist twist) const;
+  /// Seconds from the start to the last pose.
+  double duration() const { return options_->sim_time; }
 
   /// Calls `visit(pose)` for every pose of a trajectory in order, start included, until it returns false.
   template <class Visit>

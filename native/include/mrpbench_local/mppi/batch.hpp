@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mrpbench_local/costmap/costmap.hpp"
+#include "mrpbench_local/forecast.hpp"
 
 namespace mrpbench::local::mppi {
 
@@ -83,6 +84,7 @@ struct Batch : Tables {
   std::optional<float> goal_yaw;
   float tolerance = 0.1f;
   const Costmap* costmap = nullptr;
+  const Forecast* forecast = nullptr;
   Pose robot;
   /// Unit vector along the robot's heading.
   Point heading{1, 0};

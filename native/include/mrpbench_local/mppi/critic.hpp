@@ -71,6 +71,7 @@ CriticKind obstacles_critic();
 CriticKind path_align_critic();
 CriticKind path_angle_critic();
 CriticKind path_follow_critic();
+CriticKind predicted_obstacle_critic();
 CriticKind prefer_forward_critic();
 CriticKind twirling_critic();
 CriticKind velocity_deadband_critic();

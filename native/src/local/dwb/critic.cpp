@@ -9,11 +9,17 @@ namespace mrpbench::local {
 
 const CriticKind& critic_kind(std::string_view name) {
   static const std::map<std::string_view, CriticKind> kinds{
-      {"RotateToGoal", rotate_to_goal()},  {"Oscillation", oscillation()},
-      {"BaseObstacle", base_obstacle()},   {"ObstacleFootprint", obstacle_footprint()},
-      {"PathDist", path_dist()},           {"GoalDist", goal_dist()},
-      {"PathAlign", path_align()},         {"GoalAlign", goal_align()},
-      {"PreferForward", prefer_forward()}, {"Twirling", twirling()},
+      {"RotateToGoal", rotate_to_goal()},
+      {"Oscillation", oscillation()},
+      {"BaseObstacle", base_obstacle()},
+      {"ObstacleFootprint", obstacle_footprint()},
+      {"PathDist", path_dist()},
+      {"GoalDist", goal_dist()},
+      {"PathAlign", path_align()},
+      {"GoalAlign", goal_align()},
+      {"PreferForward", prefer_forward()},
+      {"Twirling", twirling()},
+      {"PredictedObstacle", predicted_obstacle()},
   };
   const auto kind = kinds.find(name);
   if (kind == kinds.end()) throw std::invalid_argument("there is no critic " + std::string(name));

@@ -143,7 +143,7 @@ std::optional<Twist> Dwb::command(const Situation& it, const Extra& extra) {
   const std::size_t points = its.path.take(frame, {pose.x, pose.y}, path.first, path.rest, options_.pruning);
   const Twist measured{thresholded(it.twist.ahead, options_.min_x_velocity_threshold),
                        thresholded(it.twist.turn, options_.min_theta_velocity_threshold)};
-  sampled_.scene = {it.now, pose, measured, *goal_, path.tolerance, it.costmap, nullptr, nullptr};
+  sampled_.scene = {it.now, pose, measured, *goal_, path.tolerance, it.costmap, nullptr, nullptr, it.forecast};
   sampled_.path.assign(1, path.first);
   sampled_.path.insert(sampled_.path.end(), path.rest.begin(), path.rest.begin() + static_cast<std::ptrdiff_t>(points));
   sampled_.speed = path.speed;

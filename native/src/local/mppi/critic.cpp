@@ -31,6 +31,7 @@ const CriticKind& critic_kind(const std::string& name) {
       {"PathAlignCritic", path_align_critic()},
       {"PathAngleCritic", path_angle_critic()},
       {"PathFollowCritic", path_follow_critic()},
+      {"PredictedObstacleCritic", predicted_obstacle_critic()},
       {"PreferForwardCritic", prefer_forward_critic()},
       {"TwirlingCritic", twirling_critic()},
       {"VelocityDeadbandCritic", velocity_deadband_critic()},

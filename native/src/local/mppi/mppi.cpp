@@ -154,6 +154,7 @@ void Mppi::prepare(const Situation& now) {
   batch_.limits = {static_cast<float>(it.vx_max * share), static_cast<float>(it.vx_min * share),
                    static_cast<float>(it.wz_max * share), static_cast<float>(it.min_turning_r)};
   batch_.costmap = now.costmap;
+  batch_.forecast = now.forecast;
   batch_.place(now.pose);
   batch_.tolerance = static_cast<float>(now.path.tolerance);
   batch_.goal_yaw.reset();

@@ -8,15 +8,16 @@ from typing import Any, ClassVar
 
 import attrs
 from mrpbench_controllers_local import Critic as AnyCritic
-from mrpbench_controllers_local import LocalController, NativeCritic, chosen, limited
+from mrpbench_controllers_local import LocalController, NativeCritic, chosen, limited, with_prediction
 from mrpbench_native.local import controller_options, critic_options
 from mrpbench_native.options import Option
 
 from mrpbench_controllers_dwb.critic import Critic
-from mrpbench_controllers_dwb.nav2_critics import DEFAULT, NATIVE, OF_CONTROLLER, RotateToGoal
+from mrpbench_controllers_dwb.nav2_critics import DEFAULT, NATIVE, OF_CONTROLLER, PredictedObstacle, RotateToGoal
 from mrpbench_core.api import option
 from mrpbench_core.api.described import described
 from mrpbench_core.api.nav2 import as_parameter, read_option
+from mrpbench_core.api.predictor import Predictor
 from mrpbench_core.files.nav2 import Nav2Block
 from mrpbench_core.model.common.fleet import RobotModel
 
@@ -44,6 +45,10 @@ class Dwb(LocalController):
         + ", ".join(f"{type(critic).__name__} {critic.scale:g}" for critic in DEFAULT),
     )
     extra_critics: tuple[Critic, ...] = option((), help="critics in addition to those of `critics` or of the Nav2 file")
+
+    prediction: Predictor | None = option(
+        None, help="predicts where people and others who are not planned will be, for the critic PredictedObstacle"
+    )
 
     def limits(self, values: dict[str, Any], robot: RobotModel, period: float) -> dict[str, Any]:
         """Return the values within the limits of a robot."""
@@ -97,4 +102,10 @@ class Dwb(LocalController):
 
     def chosen_critics(self, block: Nav2Block | None) -> tuple[AnyCritic, ...]:
         """Return the critics of the options, or else of the block, or else of the default."""
-        return chosen(block, NATIVE, own=self.critics, extra=self.extra_critics, default=DEFAULT)
+        critics = chosen(block, NATIVE, own=self.critics, extra=self.extra_critics, default=DEFAULT)
+        return with_prediction(critics, PredictedObstacle(), self.prediction)
+
+    @property
+    def predictor(self) -> Predictor | None:
+        """What predicts objects for the critic PredictedObstacle."""
+        return self.prediction

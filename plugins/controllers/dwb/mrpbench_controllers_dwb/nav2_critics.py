@@ -7,6 +7,7 @@ from mrpbench_controllers_local import NativeCritic as AnyNativeCritic
 from mrpbench_native.local import critic_options
 
 from mrpbench_controllers_dwb.critic import Critic
+from mrpbench_core.api import option
 from mrpbench_core.api.described import described
 from mrpbench_core.api.nav2 import check_parameter
 from mrpbench_core.files.nav2 import Nav2Block
@@ -121,9 +122,16 @@ class Twirling(NativeCritic):
     """Prefers not to turn."""
 
 
+@_native
+class PredictedObstacle(NativeCritic):
+    """Scores where objects will be when the robot comes near them; not in Nav2, and only with a `prediction`."""
+
+    scale: float = option(1000.0, help="weight among the other critics; 0 = off", validator=attrs.validators.ge(0))
+
+
 _ALL: tuple[type[NativeCritic], ...] = (
     *(RotateToGoal, Oscillation, BaseObstacle, ObstacleFootprint, PathDist),
-    *(GoalDist, PathAlign, GoalAlign, PreferForward, Twirling),
+    *(GoalDist, PathAlign, GoalAlign, PreferForward, Twirling, PredictedObstacle),
 )
 NATIVE = {cls.__name__: cls for cls in _ALL}
 """By Nav2's names."""

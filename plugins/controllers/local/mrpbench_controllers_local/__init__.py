@@ -5,7 +5,14 @@ critics, and `session` runs a fleet. No plugin by itself: `dwb`, `mppi`, `rpp` a
 """
 
 from mrpbench_controllers_local.costmap import LocalCostmap
-from mrpbench_controllers_local.critics import Critic, CriticSession, NativeCritic, Trajectories, chosen
+from mrpbench_controllers_local.critics import (
+    Critic,
+    CriticSession,
+    NativeCritic,
+    Trajectories,
+    chosen,
+    with_prediction,
+)
 from mrpbench_controllers_local.recipe import LocalController, limited
 from mrpbench_controllers_local.session import LocalSession
 from mrpbench_controllers_local.settings import RobotSettings
@@ -21,4 +28,5 @@ __all__ = [
     "Trajectories",
     "chosen",
     "limited",
+    "with_prediction",
 ]

@@ -8,6 +8,7 @@ import attrs
 
 from mrpbench_controllers_local.nav2_names import OF_CRITICS
 from mrpbench_core.api import Component
+from mrpbench_core.api.predictor import Predictor
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.nav2 import Nav2Block
 from mrpbench_core.model.common.arrays import Float
@@ -102,6 +103,21 @@ def chosen(
     if twice := next((critic for critic in extra if type(critic) in kinds), None):
         raise InputError(f"extra_critics: {type(twice).__name__} is there already", hint="set its weight in `critics`")
     return critics + extra
+
+
+def with_prediction(critics: tuple[C, ...], predicted: C, prediction: Predictor | None) -> tuple[C, ...]:
+    """Return critics with the one that scores what is `predicted`, if there is a prediction.
+
+    Raises:
+        InputError: it is among the critics without a prediction.
+    """
+    listed = any(type(critic) is type(predicted) for critic in critics)
+    if listed and prediction is None:
+        raise InputError(
+            f"controller: the critic {type(predicted).__name__} needs a `prediction`",
+            hint="for example `prediction: constant_velocity`",
+        )
+    return critics if listed or prediction is None else (*critics, predicted)
 
 
 def _from_nav2(block: Nav2Block, name: str, known: Mapping[str, FromNav2[C]]) -> C:

@@ -17,6 +17,7 @@ from mrpbench_controllers_local.settings import RobotSettings, lidar_values
 from mrpbench_core.api import Controller, ControllerSession, FleetControllerSession, FleetOfOne, between, option
 from mrpbench_core.api.described import described
 from mrpbench_core.api.nav2 import controller_server, not_used, plugin_ids, read_option, resolve_options
+from mrpbench_core.api.predictor import Predictor
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.nav2 import Nav2Block
 from mrpbench_core.files.nav2_file import Nav2File
@@ -86,6 +87,11 @@ class LocalController(Controller):
         del block
         return ()
 
+    @property
+    def predictor(self) -> Predictor | None:
+        """What predicts objects for its critics, of controllers that have such critics."""
+        return None
+
     def critic_parameters(self, critic: NativeCritic) -> dict[str, Any]:
         """Return the options of a critic for the native part."""
         return critic.parameters
@@ -107,9 +113,12 @@ class LocalController(Controller):
         file = self.file()
         settings = [(robot, self.settings(robot, period, file)) for robot in robots]
         try:
-            return LocalSession(self.native, settings, world, self.threads, self.critic_parameters, seed)
+            session = LocalSession(self.native, settings, world, self.threads, self.critic_parameters, seed)
         except ValueError as error:
             raise InputError(f"controller: {self.native}: {error}", file=self.nav2) from None
+        if self.predictor is not None:
+            session.prediction = self.predictor.start(robots, world)
+        return session
 
     def settings(self, robot: RobotModel, period: float, file: Nav2File | None = None) -> RobotSettings:
         """Return the settings of one robot for the native part; `file` is the Nav2 file, if it is read already.
@@ -126,7 +135,7 @@ class LocalController(Controller):
     @property
     def needs_lidar(self) -> bool:
         """True if the costmap has a layer that beams mark."""
-        return bool(self.settings(SOME_ROBOT, 0.05).values["obstacle_layer"])
+        return self.predictor is not None or bool(self.settings(SOME_ROBOT, 0.05).values["obstacle_layer"])
 
     def notes(self) -> tuple[str, ...]:
         """Return what the Nav2 file says without effect."""

@@ -11,10 +11,11 @@ from mrpbench_controllers_local.critics import CriticSession, NativeCritic, Traj
 from mrpbench_controllers_local.settings import RobotSettings
 from mrpbench_core.api import Evaluation, FleetControllerSession
 from mrpbench_core.api.contract import BrokenContractError
+from mrpbench_core.api.predictor import PredictorSession
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.common.fleet import RobotModel
-from mrpbench_core.model.execution.observation import Observations
+from mrpbench_core.model.execution.observation import Observations, ScanBatch
 from mrpbench_core.model.worlds.solids import segments
 from mrpbench_core.model.worlds.world import World
 
@@ -70,17 +71,28 @@ class LocalSession(FleetControllerSession):
             self._in_python.append(started)
         self._scored = any(self._in_python)
         """Whether any robot has critics in Python."""
+        self.prediction: PredictorSession | None = None
+        """Predicts the objects that the robots see."""
         self._observations: Observations | None = None
         self._row: dict[int, int] = {}
 
     def command(self, observations: Observations) -> Float:
         """The commands f8[k,2] of all rows."""
-        for batch in observations.scans:
+        scans = observations.scans if self.prediction is None else self._foresee(self.prediction, observations)
+        for batch in scans:
             self._fleet.see(batch.stamp, batch.robot, observations.fleet_pose, batch.ranges)
         self._observations = observations
         if self._scored:
             self._row = {robot: row for row, robot in enumerate(observations.robot.tolist())}
         return self._fleet.command(observations, self._score if self._scored else None)
+
+    def _foresee(self, prediction: PredictorSession, observations: Observations) -> tuple[ScanBatch, ...]:
+        """Tell the robots where objects will be; returns the scans without these objects, for the costmaps."""
+        scans = prediction.observe(observations.fleet_pose, observations.scans)
+        predicted = prediction.predict(observations.now)
+        if len(predicted.robot):
+            self._fleet.foresee(predicted.robot, predicted.place, predicted.radius, predicted.step)
+        return scans
 
     def clear(self, robot: int) -> None:
         """Forget what one robot's scans have marked."""

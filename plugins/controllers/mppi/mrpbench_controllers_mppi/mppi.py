@@ -7,14 +7,15 @@ Williams, Drews, Goldfain, Rehg and Theodorou, "Aggressive driving with model pr
 from typing import Any, ClassVar
 
 import attrs
-from mrpbench_controllers_local import Critic, LocalController, chosen, limited
+from mrpbench_controllers_local import Critic, LocalController, chosen, limited, with_prediction
 from mrpbench_native.local import controller_options
 
 from mrpbench_controllers_mppi.critic import MppiCritic
-from mrpbench_controllers_mppi.nav2_critics import DEFAULT, NATIVE
+from mrpbench_controllers_mppi.nav2_critics import DEFAULT, NATIVE, PredictedObstacleCritic
 from mrpbench_core.api import option
 from mrpbench_core.api.described import described
 from mrpbench_core.api.nav2 import as_parameter, read_option
+from mrpbench_core.api.predictor import Predictor
 from mrpbench_core.files.nav2 import Nav2Block
 from mrpbench_core.model.common.fleet import RobotModel
 
@@ -38,6 +39,11 @@ class Mppi(LocalController):
     )
     extra_critics: tuple[MppiCritic, ...] = option(
         (), help="critics in addition to those of `critics` or of the Nav2 file"
+    )
+
+    prediction: Predictor | None = option(
+        None,
+        help="predicts where people and others who are not planned will be, for the critic PredictedObstacleCritic",
     )
 
     def settled(self, block: Nav2Block | None) -> dict[str, Any]:
@@ -85,4 +91,10 @@ class Mppi(LocalController):
 
     def chosen_critics(self, block: Nav2Block | None) -> tuple[Critic, ...]:
         """Return the critics of the options, or else of the block, or else of the default."""
-        return chosen(block, NATIVE, own=self.critics, extra=self.extra_critics, default=DEFAULT)
+        critics = chosen(block, NATIVE, own=self.critics, extra=self.extra_critics, default=DEFAULT)
+        return with_prediction(critics, PredictedObstacleCritic(), self.prediction)
+
+    @property
+    def predictor(self) -> Predictor | None:
+        """What predicts objects for the critic PredictedObstacleCritic."""
+        return self.prediction

@@ -86,6 +86,11 @@ class PathAngleCritic(NativeMppiCritic):
 
 
 @_native
+class PredictedObstacleCritic(NativeMppiCritic):
+    """Scores where objects will be when the robot comes near them; not in Nav2, and only with a `prediction`."""
+
+
+@_native
 class PreferForwardCritic(NativeMppiCritic):
     """Prefers driving forward."""
 
@@ -113,7 +118,14 @@ class VelocityDeadbandCritic(NativeMppiCritic):
 
 _ALL: tuple[type[NativeMppiCritic], ...] = (
     *(ConstraintCritic, CostCritic, ObstaclesCritic, GoalCritic, GoalAngleCritic, PathAlignCritic),
-    *(PathFollowCritic, PathAngleCritic, PreferForwardCritic, TwirlingCritic, VelocityDeadbandCritic),
+    *(
+        PathFollowCritic,
+        PathAngleCritic,
+        PredictedObstacleCritic,
+        PreferForwardCritic,
+        TwirlingCritic,
+        VelocityDeadbandCritic,
+    ),
 )
 NATIVE = {cls.__name__: cls for cls in _ALL}
 """By Nav2's names."""
