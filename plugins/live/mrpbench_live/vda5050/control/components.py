@@ -45,6 +45,7 @@ class _Run:
 
     vehicles: ForeignFleet | None = None
     horizon = 0
+    senders: Sequence[OrderSender] = ()
 
 
 @attrs.frozen(kw_only=True)
@@ -110,11 +111,14 @@ class _Vehicles(OutsideRobots):
             if place is not None and place.level == self._levels[robot]:
                 yield robot, place.x, place.y, place.yaw, place.speed
 
+    def route(self, robot: int) -> Float:
+        return _Run.senders[robot].places() if _Run.senders else np.empty((0, 2))
+
     def twist(self) -> Float:
         return np.array([vehicle.twist for vehicle in self._vehicles.robots]).reshape(-1, 2)
 
     def close(self) -> None:
-        _Run.vehicles = None
+        _Run.vehicles, _Run.senders = None, ()
         self._vehicles.close()
 
 
@@ -139,7 +143,9 @@ class Vda5050Orders(Navigator):
         del world, controller, period, seed
         if _Run.vehicles is None:
             raise InputError("navigator: `vda5050` needs `simulator: vda5050`; `mrpbench control` sets both")
-        return _Session(_Run.vehicles, _Run.horizon, fleet, routes)
+        session = _Session(_Run.vehicles, _Run.horizon, fleet, routes)
+        _Run.senders = session.senders
+        return session
 
 
 class _Session(NavigatorSession):
@@ -152,7 +158,7 @@ class _Session(NavigatorSession):
         self._reached: Int32 = np.zeros(len(fleet), np.int32)
         self._cleared: Int32 = np.zeros(len(fleet), np.int32)
         self._aborted = [False] * len(fleet)
-        self._senders = [
+        self.senders = [
             OrderSender(
                 vehicle,
                 Itinerary(route),
@@ -166,8 +172,8 @@ class _Session(NavigatorSession):
         ]
 
     def adopt(self, routes: Sequence[Route], cut: Int32 | None = None) -> None:
-        gone = np.zeros(len(self._senders), np.int32) if cut is None else cut
-        for sender, route, segments in zip(self._senders, routes, gone.tolist(), strict=True):
+        gone = np.zeros(len(self.senders), np.int32) if cut is None else cut
+        for sender, route, segments in zip(self.senders, routes, gone.tolist(), strict=True):
             sender.adopt(route, segments)
         self._reached = (self._reached - gone).astype(np.int32)
         self._cleared = np.maximum(self._cleared - gone, 0).astype(np.int32)
@@ -179,7 +185,7 @@ class _Session(NavigatorSession):
         mode = np.full(len(reached), Mode.FOLLOWING, np.uint8)
         aborted = []
         for robot, released in enumerate(orders.released.tolist()):
-            sender = self._senders[robot]
+            sender = self.senders[robot]
             sender.hear()
             itinerary, vehicle = sender.itinerary, sender.vehicle
             allowed = itinerary.moves_after(released)
