@@ -78,7 +78,8 @@ class ReportedFleet(Simulation):
     def __init__(
         self, outside: OutsideRobots, pace: Pace, fleet: Fleet, placements: Float, levels: Int16, period: float
     ) -> None:
-        self._outside, self._pace, self._period, self._steps = outside, pace, period, 0
+        self._outside, self._pace, self._period = outside, pace, period
+        self._steps = self._listened = 0
         self._tracker, self._overlaps = Tracker(fleet.robots, placements, period), Overlaps(fleet.robots)
         self._levels, self._closed = levels, False
         self._places: list[tuple[float, float]] = [(x, y) for x, y, _ in placements.tolist()]
@@ -92,16 +93,26 @@ class ReportedFleet(Simulation):
         """The state after the last step."""
         return self._state
 
-    def step(self, inputs: Inputs) -> State:
-        """Listen until the control period is over; the commands are for simulators."""
-        del inputs
-        self._steps += 1
-        now = self._steps * self._period
-        if self._steps == 1:
+    def listen(self) -> None:
+        """Listen until the control period is over, once in each.
+
+        A navigator that listens before it says what robots have reached saves one period before they may go on.
+        """
+        if self._listened > self._steps:
+            return
+        self._listened = self._steps + 1
+        now = self._listened * self._period
+        if self._listened == 1:
             self._pace.due(0.0)
         self._outside.serve(self._pace.due(now))
         if change := self._pace.change(now):
             sys.stderr.write(f"at {now:.1f} s: {change}\n")
+
+    def step(self, inputs: Inputs) -> State:
+        """Listen if nobody has in this period, and move the recorded robots; the commands are for simulators."""
+        del inputs
+        self.listen()
+        self._steps += 1
         for robot, x, y, yaw, speed in self._outside.reports():
             self._report(robot, x, y, yaw, speed)
         self._tracker.step()
