@@ -132,6 +132,7 @@ def main() -> int:
     print(f"{scenario}: the robots reached {done} pairs of destinations in {options.seconds:g} s")
     print(f"robots: {robots['status']}; plan server and executor: {traffic['status']} {traffic.get('error') or ''}")
     print(f"contacts {metrics['execution.robot_contacts']}, least distance of the centres {least:.2f} m")
+    print(f"longest standstill of both {metrics['deadlock.longest_s']:.1f} s")
     return 0
 
 
