@@ -37,7 +37,8 @@ def tasks_of(config: RunConfig, context: RunContext, stream: TaskStream, recorde
     costs = QueueCosts(config.assigner.cost, context.problem.roadmap, context.fleet)
     supports, windowed = config.planner.supports, config.replanning.window is not None
     sets, shared = Feature.GOAL_SETS in supports, windowed and Feature.SHARED_GOALS in supports
-    places = Places(context.problem, costs.labels, config.replanning.parking, sets, shared)
+    rest, parking = not config.planner.chooses_goals, config.replanning.parking
+    places = Places(context.problem, costs.labels, parking, sets, shared, rest)
     sequences = Feature.GOAL_SEQUENCES in supports
     return TaskManager(
         stream, config.assigner, costs, places, context.problem, recorder, config.replanning.interval, sequences

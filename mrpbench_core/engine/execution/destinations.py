@@ -66,14 +66,21 @@ class Places:
         parking: where robots without an errand go: nowhere, unless they are in the way, or home.
         sets: the planner takes sets of goals, so that it may choose where they make room.
         shared: the planner takes errands that exclude one another.
+        rest: robots without an errand get goals; else the planner chooses where they go.
     """
 
     def __init__(
-        self, problem: Problem, labels: Sequence[Int], parking: Parking, sets: bool, shared: bool = False
+        self,
+        problem: Problem,
+        labels: Sequence[Int],
+        parking: Parking,
+        sets: bool,
+        shared: bool = False,
+        rest: bool = True,
     ) -> None:
         roadmap = problem.roadmap
         self._problem, self._labels, self._parking = problem, labels, parking
-        self._sets, self._shared = sets, shared
+        self._sets, self._shared, self._rest = sets, shared, rest
         self._near = Neighbourhoods(problem)
         self._kept_free = np.zeros(len(roadmap.position), bool)
         for resource in roadmap.resources:
@@ -114,8 +121,8 @@ class Places:
                 if self._sets and len(last.yaws) > 1 and len(set(map(str, last.yaws.values()))) == 1:
                     ends.append(last)
         for robot in [robot for robot in range(robots) if robot not in taken.vertex]:
-            goals[robot] = (self._room(robot, int(head[robot]), taken, attempt),)
-            if len(goals[robot][0]) == 1:
+            goals[robot] = (self._room(robot, int(head[robot]), taken, attempt),) if self._rest else ()
+            if goals[robot] and len(goals[robot][0]) == 1:
                 taken.add(robot, goals[robot][0][0])
         for end in ends:
             goals[end.robot] = (*goals[end.robot][:-1], self._choice(end, taken))

@@ -11,9 +11,9 @@ from mrpbench_core.engine.execution.destinations import Errand, Places
 ROADMAP = grid_of([".....", "....."])
 
 
-def places(radius, parking="stay", sets=False, starts=(0, 1, 2)):
+def places(radius, parking="stay", sets=False, starts=(0, 1, 2), rest=True):
     problem = attrs.evolve(problem_on(ROADMAP, list(starts), list(starts)), radius=np.full(3, radius))
-    return Places(problem, [np.zeros(10, np.int64)], parking, sets)
+    return Places(problem, [np.zeros(10, np.int64)], parking, sets, rest=rest)
 
 
 @settings(max_examples=60, deadline=None)
@@ -50,6 +50,11 @@ def test_a_planner_that_takes_sets_chooses_where_robots_make_room():
     assert made.goals[1] == (tuple(vertex for vertex in range(10) if vertex != 4),)
     assert made.yaw[0] == 1.5
     assert np.isnan(made.yaw[1:]).all()
+
+
+def test_a_planner_that_chooses_goals_gets_those_of_errands_only():
+    made = places(0.2, sets=True, rest=False).destinations([[Errand(0, 0, 0, {4: 1.5})]], np.array([0, 4, 9]))
+    assert made.goals == (((4,),), (), ())
 
 
 def test_a_robot_goes_over_its_errands_to_the_last_at_which_there_is_room():

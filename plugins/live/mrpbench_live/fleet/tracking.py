@@ -14,6 +14,8 @@ from mrpbench_core.api import Float, RobotModel, wrapped
 
 NEAR_M, NEAR_RAD = 0.1, 0.3
 """Metres and radians within which a robot goes on to the next report."""
+BESIDE_M = 0.5
+"""Metres from a route within which a place is beside it."""
 BRAKING = 0.95
 """Share of its acceleration with which a robot brakes, so that it does not overshoot in steps of a control period."""
 
@@ -39,24 +41,24 @@ class Tracker:
         self._came, self._faced = np.ones(len(robots), bool), np.ones(len(robots), bool)
         """bool[n] each: the robot has been at the place of its target, and has had its yaw."""
         self._rest = np.zeros(len(robots))
-        """f8[n] metres from the target through the reports after it."""
+        """f8[n] metres ahead of the target on which the robot need not stop."""
         self._reports: list[deque[tuple[float, float, float]]] = [deque() for _ in robots]
         self._last: list[tuple[float, ...]] = [()] * len(robots)
         self._behind: set[int] = set()
         """Robots that have reports after their target."""
 
-    def report(self, robot: int, x: float, y: float, yaw: float, speed: float = 0.0) -> None:
-        """Add a report: metres, radians, and m/s forward."""
+    def report(
+        self, robot: int, x: float, y: float, yaw: float, speed: float = 0.0, straight: float = math.inf
+    ) -> None:
+        """Add a report: metres, radians, m/s forward, and the metres for which the robot can go on straight ahead."""
         report = x, y, yaw, speed
         if self._last[robot] == report:
             return
         self._last[robot] = report
-        braking = speed * abs(speed) / (2 * self._limits[1, robot])
+        braking = min(speed * abs(speed) / (2 * self._limits[1, robot]), straight)
         stop = x + braking * math.cos(yaw), y + braking * math.sin(yaw), yaw
-        reports = self._reports[robot]
-        before = reports[-1] if reports else self._target[robot].tolist()
-        self._rest[robot] += math.hypot(stop[0] - before[0], stop[1] - before[1])
-        reports.append(stop)
+        self._reports[robot].append(stop)
+        self._rest[robot] = self._ahead(robot)
         self._behind.add(robot)
 
     def step(self) -> None:
@@ -76,7 +78,7 @@ class Tracker:
         shift = self._target[:, :2] - pose[:, :2]
         length = np.hypot(shift[:, 0], shift[:, 1])
         through = np.abs(turn) <= NEAR_RAD  # others stop at their target to turn
-        left = length + np.where(through, np.maximum(self._rest, 0.0), 0.0)
+        left = length + np.where(through, self._rest, 0.0)
         speed = np.minimum.reduce([top, np.sqrt(2 * BRAKING * acceleration * left), left / period])
         velocity = shift * (speed / np.maximum(length, 1e-9))[:, None]
         cosine, sine = np.cos(heading), np.sin(heading)
@@ -102,16 +104,68 @@ class Tracker:
         reach = max(NEAR_M, 1.5 * abs(float(self.twist[robot, 0])) * self._period)
         came, faced = bool(self._came[robot]), bool(self._faced[robot])
         while came and faced:
-            before, target = self._target[robot].tolist(), reports.popleft()
-            self._rest[robot] -= math.hypot(target[0] - before[0], target[1] - before[1])
-            self._target[robot] = target
+            self._target[robot] = target = reports.popleft()
             came = math.hypot(target[0] - x, target[1] - y) <= reach
             faced = abs(math.remainder(target[2] - yaw, 2 * math.pi)) <= NEAR_RAD
             if not reports:
-                self._rest[robot] = 0.0
                 self._behind.discard(robot)
                 break
-        self._came[robot], self._faced[robot] = came, faced
+        self._came[robot], self._faced[robot], self._rest[robot] = came, faced, self._ahead(robot)
+
+    def _ahead(self, robot: int) -> float:
+        """Return the metres from the target through the reports after it, up to the first one that asks for a turn."""
+        metres, (x, y, yaw) = 0.0, self._target[robot].tolist()
+        for report in self._reports[robot]:
+            if abs(math.remainder(report[2] - yaw, 2 * math.pi)) > NEAR_RAD:
+                break
+            metres += math.hypot(report[0] - x, report[1] - y)
+            x, y, yaw = report
+        return metres
+
+
+def corners_of(route: Float) -> Float:
+    """Return the places f8[k,2] at which a route f8[m,2] begins, turns and ends."""
+    leg = np.diff(route, axis=0)
+    leg /= np.maximum(np.hypot(leg[:, 0], leg[:, 1]), 1e-9)[:, None]
+    turns = (np.abs(np.diff(leg, axis=0)) > 1e-6).any(axis=1)
+    found: Float = route[np.concatenate([[True], turns, [True]])] if len(route) > 1 else route
+    return found
+
+
+def corners_between(route: Float, before: tuple[float, float], after: tuple[float, float]) -> list[tuple[float, float]]:
+    """Return the corners of a route f8[k,2] between two places beside it; none if one of them is not beside it.
+
+    Where a route passes a place twice, the shortest way along it counts, in whole legs.
+    """
+    if len(route) < 3:
+        return []
+    tail, leg = route[:-1], np.diff(route, axis=0)
+    length = np.maximum((leg**2).sum(axis=1), 1e-12)
+    legs = []
+    for place in (before, after):
+        share = np.clip(((place - tail) * leg).sum(axis=1) / length, 0.0, 1.0)
+        away = np.hypot(*(tail + share[:, None] * leg - place).T)
+        legs.append(np.flatnonzero(away <= min(BESIDE_M, away.min() + NEAR_M)).tolist())
+    pairs = [(last - first, first, last) for first in legs[0] for last in legs[1] if last >= first]
+    _, first, last = min(pairs, default=(0, 0, 0))
+    return [(x, y) for x, y in route[first + 1 : last + 1].tolist()]
+
+
+def straight_ahead(route: Float, place: tuple[float, float], yaw: float) -> float:
+    """Return the metres for which a robot at a place stays beside a route f8[k,2] straight ahead; inf without one.
+
+    That is as far as the end of the leg of the route at which it is and which it faces, and nothing if it faces none.
+    """
+    if len(route) < 2:
+        return math.inf
+    tail, leg = route[:-1], np.diff(route, axis=0)
+    length = np.maximum(np.hypot(leg[:, 0], leg[:, 1]), 1e-6)
+    along = ((place - tail) * leg).sum(axis=1) / length
+    nearest = np.hypot(*(tail + (np.clip(along, 0.0, length) / length)[:, None] * leg - place).T)
+    beside = nearest <= nearest.min() + NEAR_M
+    facing = (leg[:, 0] * math.cos(yaw) + leg[:, 1] * math.sin(yaw)) / length
+    left = np.where(facing >= math.cos(NEAR_RAD), length - along, 0.0)
+    return max(0.0, float(left[beside].max()))
 
 
 def _near(wanted: Float, before: Float, change: Float) -> Float:

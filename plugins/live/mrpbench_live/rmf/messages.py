@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from mrpbench_core.api import InputError
+from mrpbench_live.rmf.cdr import HEADER as PLAIN
+from mrpbench_live.rmf.cdr import Codec
 
 DEFINITIONS = Path(__file__).with_name("definitions.txt")
 """The definitions that this distribution brings."""
@@ -43,11 +45,14 @@ class Messages:
         idl, self._types = _library(path)
         self._fields: dict[str, dict[str, Any]] = {}
         self._made: dict[str, Any] = {}
+        codecs: dict[str, Codec] = {}
         for name, fields in _read(path).items():
             package, short = name.split("/")
             kinds = {field: self._kind(kind) for field, kind in fields.items()}
             self._made[name] = idl.make_idl_struct(short, f"{package}::msg::dds_::{short}_", kinds)
             self._fields[name] = fields
+            codecs[name] = Codec(self._made[name], fields, codecs)
+            _use(codecs[name], self._made[name])
 
     def type(self, name: str) -> Any:
         """Return the type of messages such as `rmf_prototype_msgs/Plan`."""
@@ -80,6 +85,24 @@ class Messages:
         if field["bound"]:
             return self._types.sequence[kind, size]
         return self._types.array[kind, size] if size else self._types.sequence[kind]
+
+
+def _use(codec: Codec, made: Any) -> None:
+    """Let a type of cyclonedds write and read plain CDR by a codec, and all else as before."""
+    serialize, deserialize = made.serialize, made.deserialize
+
+    def write(message: Any, buffer: Any = None, endianness: Any = None, use_version_2: bool | None = None) -> bytes:
+        if use_version_2 is False and buffer is endianness is None:
+            return codec.serialize(message)
+        found: bytes = serialize(message, buffer, endianness, use_version_2)
+        return found
+
+    def read(data: bytes, has_header: bool = True, use_version_2: bool | None = None) -> Any:
+        if has_header and data[:2] == PLAIN[:2]:
+            return codec.deserialize(data)
+        return deserialize(data, has_header, use_version_2)
+
+    made.serialize, made.deserialize = write, staticmethod(read)
 
 
 def _library(path: Path) -> tuple[Any, Any]:

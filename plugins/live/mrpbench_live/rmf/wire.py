@@ -24,8 +24,8 @@ LATCHED = ("destination", "plan", *DISCOVERY)
 """Topics whose last message is kept for who comes later (transient local)."""
 DEPTH = 10
 """Messages that are kept for a reader on the other topics, as ROS 2 does by default."""
-POLL_S = 0.01
-"""Seconds between looks at what has come while there is time."""
+POLL_S, PAUSE = 0.01, 2.0
+"""Seconds between looks at what has come while there is time, at least, and as a multiple of what a look takes."""
 
 
 class Wire:
@@ -82,15 +82,16 @@ class Wire:
     def serve(self, due: float) -> None:
         """Take in what has come, and what comes until it is time: `due` as of `time.monotonic`."""
         while True:
+            began = time.monotonic()
             for reader, take in self._takers.copy():
                 for message in reader.take(N=DEPTH):
                     if message.sample_info.valid_data:  # not that a sender has left
                         self.received += 1
                         take(message)
-            left = due - time.monotonic()
-            if left <= 0:
+            now = time.monotonic()
+            if now >= due:
                 return
-            time.sleep(min(left, POLL_S))
+            time.sleep(min(due - now, max(POLL_S, PAUSE * (now - began))))
 
     def close(self) -> None:
         """Leave the domain."""

@@ -313,7 +313,9 @@ class Vehicle:
     def _drain(self, before: Here, here: Here) -> None:
         metres = distance(here.pose, before.pose[:2])
         seconds = max(0.0, here.now - before.now)
-        self.charge = self._battery.after(self.charge, seconds, metres if seconds else 0.0, self.charging)
+        if seconds:
+            then, now = ((velocity[0], velocity[2]) for velocity in (before.velocity, here.velocity))
+            self.charge = self._battery.after(self.charge, seconds, metres, then, now, self.charging)
 
     # Ends
 

@@ -19,6 +19,8 @@ RETRY_S, PATIENCE_S, KEEPALIVE_S = 0.5, 2.0, 30
 """Seconds between attempts to connect again; for a TCP connection; and until the broker takes a client for lost."""
 MISC_S = 1.0
 """Seconds between looks at keepalives."""
+LEAST_S = 0.01
+"""Seconds for which messages that wait are received although it is time for something else."""
 Take = Callable[[str, bytes], None]
 """Called with the topic and the payload of each message."""
 
@@ -127,6 +129,7 @@ class Wire:
         self._waiting: set[Client] = set()
         """Those whose sockets could not take all that there is to send."""
         self._retry_at = self._misc_at = 0.0
+        self._turn = 0
 
     def new(self, name: str) -> Any:
         """Make a client of the library."""
@@ -165,20 +168,26 @@ class Wire:
             self.serve(time.monotonic() + 0.05)
 
     def serve(self, until: float) -> None:
-        """Send and receive until a time of `time.monotonic`, and at least what waits now."""
-        waited = False
+        """Send and receive until a time of `time.monotonic`, or what waits, for at most `LEAST_S`, if that is over.
+
+        What is left then is received by the next call, so that many messages at once do not stop the clock of a run.
+        """
+        end = max(until, time.monotonic() + LEAST_S)
         while True:
             now = time.monotonic()
-            left = until - now
-            if waited and left <= 0:
-                return
             self._keep(now)
-            waited = True
-            for key, mask in self._selector.select(max(0.0, min(left, MISC_S))):
+            ready = self._selector.select(max(0.0, min(until - now, MISC_S)))
+            if not ready and time.monotonic() >= until:
+                return
+            self._turn += 1  # others come first the next time
+            for index in range(len(ready)):
+                key, mask = ready[(index + self._turn) % len(ready)]
                 client = key.data
                 if mask & selectors.EVENT_READ:
                     client.mqtt.loop_read()
                 self.flush(client)
+                if time.monotonic() >= end:
+                    return
 
     def flush(self, client: Client) -> None:
         """Write what a client has to send, as far as its socket takes it; the rest follows in `serve`."""

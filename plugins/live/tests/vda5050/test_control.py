@@ -7,6 +7,7 @@ import time
 import pytest
 
 pytest.importorskip("paho.mqtt", reason="mrpbench-live[vda5050] is not installed")
+from mrpbench_live.vda5050.check.control import ControlCheck
 from mrpbench_live.vda5050.check.rules import BROKEN, PASSED
 from mrpbench_live.vda5050.control.fleet import ForeignFleet
 from mrpbench_live.vda5050.messages import factsheet_of
@@ -37,22 +38,26 @@ def swap(swap_study, serve, broker):
             record, _ = result("results/control")
             return record, result()[0], said
 
+        end.control = control
         return end
 
     return begin
 
 
-def test_two_robots_swap_places(swap, serve, broker):
+def test_two_robots_swap_places(swap, broker):
+    check = ControlCheck(broker.url, "2.1", "")
+    check.connect()
     end = swap("adg", 45, version="2.1")
-    check = serve[2]("check-vda5050", "control", broker.url, "--version", "2.1", "--seconds", "9", "--json")
-    findings = json.loads(check.communicate(timeout=60)[0])
+    while end.control.poll() is None:
+        check.listen(time.monotonic() + 0.1)
+    findings = check.report.findings
     record, served, said = end()
     assert (record["status"], served["status"]) == ("succeeded", "succeeded"), said
     assert record["provenance"]["live"]
     assert record["metrics"]["execution.robot_contacts"] == served["metrics"]["execution.robot_contacts"] == 0
-    assert {name: found["reason"] for name, found in findings.items() if found["verdict"] == BROKEN} == {}
+    assert {name: found.reason for name, found in findings.items() if found.verdict == BROKEN} == {}
     kept = {"order", "structure", "new_order", "update_ids", "stitching", "base", "accepted"}
-    assert {name for name in kept if findings[name]["verdict"] != PASSED} == set()
+    assert {name for name in kept if findings[name].verdict != PASSED} == set()
 
 
 def test_without_releases_in_order_they_meet(swap):

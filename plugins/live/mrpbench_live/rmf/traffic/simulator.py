@@ -84,6 +84,9 @@ class _Robots(OutsideRobots):
             if it.pose is not None:
                 yield robot, *it.pose, it.speed
 
+    def route(self, robot: int) -> Float:
+        return self._traffic.places(robot)
+
     def close(self) -> None:
         share(None)
         self._traffic.wire.close()

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from mrpbench_core.api import Event, Goals, Int, Int32, Plan, Problem
+from mrpbench_core.api import Event, Float, Goals, Int, Int32, Plan, Problem
 from mrpbench_core.files.printing import printable
 from mrpbench_live.rmf.messages import CODE_TEMPORARILY_UNREACHABLE, Messages, plan_key, stamp
 from mrpbench_live.rmf.traffic.destinations import RefusedError, Wish, wish_of
@@ -40,6 +40,8 @@ class Traffic:
         """Why some robots need another plan."""
         self.posted: dict[int, Posted] = {}
         """The plan of each robot."""
+        self._position: Float = np.empty((0, 2))
+        """f8[v,2] of the roadmap."""
         self._versions: dict[bytes, int] = {}
         self._sessions = 0
         """Plans that were made for all robots together."""
@@ -131,6 +133,7 @@ class Traffic:
         """Send a plan to all robots that it concerns: those with destinations, and those that make way."""
         waypoints, blockers = composed
         self._sessions += 1
+        self._position = problem.roadmap.position
         self.posted = {
             robot: self._posted(robot, way)
             for robot, way in enumerate(waypoints)
@@ -147,6 +150,13 @@ class Traffic:
                 self._messages, problem, posted, by_robot.get(robot, {}), self.posted, self._names, now
             )
             self.wire.publish(f"{self._names[robot]}/plan", message)
+
+    def places(self, robot: int) -> Float:
+        """Return the places f8[k,2] (metres) of the waypoints that a robot was sent."""
+        posted = self.posted.get(robot)
+        vertices = np.zeros(0, np.int64) if posted is None else posted.waypoints.vertex
+        found: Float = self._position[vertices]
+        return found
 
     def release(self, released: Int32) -> None:
         """Tell robots how far they may drive: `released` i4[n] leading segments."""

@@ -44,7 +44,9 @@ class _Run:
     """What the components of one run share."""
 
     vehicles: ForeignFleet | None = None
+    simulation: ReportedFleet | None = None
     horizon = 0
+    senders: Sequence[OrderSender] = ()
 
 
 @attrs.frozen(kw_only=True)
@@ -92,7 +94,8 @@ class Vda5050Vehicles(Simulator):
         except BaseException:
             vehicles.close()
             raise
-        return ReportedFleet(_Vehicles(vehicles, on), Pace(self.pace), fleet, placements, on, period)
+        _Run.simulation = ReportedFleet(_Vehicles(vehicles, on), Pace(self.pace), fleet, placements, on, period)
+        return _Run.simulation
 
 
 class _Vehicles(OutsideRobots):
@@ -110,11 +113,14 @@ class _Vehicles(OutsideRobots):
             if place is not None and place.level == self._levels[robot]:
                 yield robot, place.x, place.y, place.yaw, place.speed
 
+    def route(self, robot: int) -> Float:
+        return _Run.senders[robot].places() if _Run.senders else np.empty((0, 2))
+
     def twist(self) -> Float:
         return np.array([vehicle.twist for vehicle in self._vehicles.robots]).reshape(-1, 2)
 
     def close(self) -> None:
-        _Run.vehicles = None
+        _Run.vehicles, _Run.simulation, _Run.senders = None, None, ()
         self._vehicles.close()
 
 
@@ -137,22 +143,31 @@ class Vda5050Orders(Navigator):
             InputError: the simulator is another one.
         """
         del world, controller, period, seed
-        if _Run.vehicles is None:
+        if _Run.vehicles is None or _Run.simulation is None:
             raise InputError("navigator: `vda5050` needs `simulator: vda5050`; `mrpbench control` sets both")
-        return _Session(_Run.vehicles, _Run.horizon, fleet, routes)
+        session = _Session(_Run.vehicles, _Run.simulation, _Run.horizon, fleet, routes)
+        _Run.senders = session.senders
+        return session
 
 
 class _Session(NavigatorSession):
-    """Counts what vehicles have done, and sends what they should do."""
+    """Sends what vehicles should do, and counts what they have done."""
 
-    def __init__(self, vehicles: ForeignFleet, horizon: int, fleet: Fleet, routes: Sequence[Route]) -> None:
-        self._vehicles = vehicles
+    def __init__(
+        self,
+        vehicles: ForeignFleet,
+        simulation: ReportedFleet,
+        horizon: int,
+        fleet: Fleet,
+        routes: Sequence[Route],
+    ) -> None:
+        self._vehicles, self._simulation = vehicles, simulation
         radii = fleet.radii
         self._clearances: list[float] = (radii + radii.max(initial=0.0)).tolist()
         self._reached: Int32 = np.zeros(len(fleet), np.int32)
         self._cleared: Int32 = np.zeros(len(fleet), np.int32)
         self._aborted = [False] * len(fleet)
-        self._senders = [
+        self.senders = [
             OrderSender(
                 vehicle,
                 Itinerary(route),
@@ -166,26 +181,28 @@ class _Session(NavigatorSession):
         ]
 
     def adopt(self, routes: Sequence[Route], cut: Int32 | None = None) -> None:
-        gone = np.zeros(len(self._senders), np.int32) if cut is None else cut
-        for sender, route, segments in zip(self._senders, routes, gone.tolist(), strict=True):
+        gone = np.zeros(len(self.senders), np.int32) if cut is None else cut
+        for sender, route, segments in zip(self.senders, routes, gone.tolist(), strict=True):
             sender.adopt(route, segments)
         self._reached = (self._reached - gone).astype(np.int32)
         self._cleared = np.maximum(self._cleared - gone, 0).astype(np.int32)
 
     def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:
         del observation  # what vehicles report is newer
-        wall = time.monotonic()
+        wall, moves = time.monotonic(), []
+        for sender, released in zip(self.senders, orders.released.tolist(), strict=True):
+            moves.append(sender.itinerary.moves_after(released))
+            sender.step(moves[-1], wall)
+        self._simulation.listen()
         reached, cleared = self._reached.copy(), self._cleared.copy()
         mode = np.full(len(reached), Mode.FOLLOWING, np.uint8)
         aborted = []
         for robot, released in enumerate(orders.released.tolist()):
-            sender = self._senders[robot]
+            sender = self.senders[robot]
             sender.hear()
-            itinerary, vehicle = sender.itinerary, sender.vehicle
-            allowed = itinerary.moves_after(released)
+            itinerary, vehicle, allowed = sender.itinerary, sender.vehicle, moves[robot]
             reached[robot] = max(int(reached[robot]), itinerary.segments_after(sender.passed, released))
             cleared[robot] = self._cleared_by(robot, sender, released, int(reached[robot]), int(cleared[robot]))
-            sender.step(allowed, wall)
             fault = sender.refused or vehicle.unusable
             if fault is not None:
                 mode[robot] = Mode.ABORTED

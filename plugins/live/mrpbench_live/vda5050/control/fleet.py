@@ -61,7 +61,7 @@ class ForeignFleet:
         Raises:
             InputError: some vehicle is missing, with the first message that it did not send.
         """
-        until, cancelled = time.monotonic() + seconds, set[str]()
+        until, cancelled, asked = time.monotonic() + seconds, set[str](), set[str]()
         while True:
             self.serve(time.monotonic() + 0.05)
             found = [self._nearest(x, y, level) for _, x, y, level in starts]
@@ -70,6 +70,10 @@ class ForeignFleet:
                 if not vehicle.idle and vehicle.key not in cancelled:
                     self.cancel(vehicle)
                     cancelled.add(vehicle.key)
+            for vehicle in self._found.values():
+                if vehicle.online and vehicle.factsheet is None and vehicle.key not in asked:
+                    self._act(vehicle, "factsheetRequest")  # some send none unasked
+                    asked.add(vehicle.key)
             if len(self.robots) == len(starts) and all(vehicle.idle for vehicle in self.robots):
                 self._events.clear()
                 return
@@ -125,8 +129,12 @@ class ForeignFleet:
 
     def cancel(self, vehicle: ForeignVehicle) -> None:
         """Cancel the order of a vehicle."""
-        kind = "NONE" if self.names.has_instant_states else "HARD"
-        action = {"actionType": "cancelOrder", "actionId": uuid.uuid4().hex, "blockingType": kind}
+        self._act(vehicle, "cancelOrder")
+
+    def _act(self, vehicle: ForeignVehicle, kind: str) -> None:
+        """Send an instant action."""
+        blocking = "NONE" if self.names.has_instant_states or kind != "cancelOrder" else "HARD"
+        action = {"actionType": kind, "actionId": uuid.uuid4().hex, "blockingType": blocking}
         self.send(vehicle, "instantActions", {"actions": [action]})
 
     def events(self, now: float) -> tuple[Event, ...]:

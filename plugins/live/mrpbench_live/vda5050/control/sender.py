@@ -8,7 +8,9 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from mrpbench_core.api import Route
+import numpy as np
+
+from mrpbench_core.api import Float, Route
 from mrpbench_live.vda5050.control.itinerary import Itinerary, Stop
 from mrpbench_live.vda5050.control.vehicle import ForeignVehicle
 from mrpbench_live.vda5050.names import Names
@@ -107,6 +109,12 @@ class OrderSender:
             else:
                 self._update += 1
                 self._publish_order(self._base, allowed, now)
+
+    def places(self) -> Float:
+        """Return the places f8[k,2] (metres) from the node that the vehicle has passed to the decision point."""
+        nodes = range(max(self.passed, self.itinerary.first), min(self._base, self.itinerary.length) + 1)
+        stops = [self.itinerary.stop(moves) for moves in nodes]
+        return np.array([(stop.x, stop.y) for stop in stops]).reshape(-1, 2)
 
     @property
     def _has_order(self) -> bool:
