@@ -6,6 +6,7 @@ from typing import Any
 import attrs
 
 from mrpbench_core.files.text import counted
+from mrpbench_core.report.answer.wording import listed
 from mrpbench_core.report.statistics.estimate import IntervalEstimate
 from mrpbench_search.sizing.fleets import FleetFigures, Limits, Verdict, smallest
 from mrpbench_search.sizing.prices import Prices
@@ -35,16 +36,18 @@ def sentence(name: str, fleets: Fleets, load: Load) -> str:
         if not fleets.tried:
             return f"{name}: nothing is shown"
         largest = max(fleets.tried)
-        why = f": {fleets.limit}" if fleets.limit else f": {lacking(fleets.tried[largest])} run out first"
+        why = f": {fleets.limit}" if fleets.limit else f": {lacking(fleets.tried[largest], largest)} run out first"
         return f"{name}: up to {counted(largest, 'robot')} no fleet is shown to serve {words}{why}"
     first = f"{counted(high, 'robot')}{_chargers(fleets)} serve{'s' if high == 1 else ''} {words}"
     parts = [first + _in_time(fleets.tried[high])]
     maybe = range(high - 1, low - 1, -1)
-    parts += [f"{size} may do, which {_evidence(fleets.tried.get(size))}" for size in maybe]
+    parts += [f"{size} may do, which {_evidence(fleets.tried[size])}" for size in maybe if size in fleets.tried]
+    if untried := [str(size) for size in maybe if size not in fleets.tried]:
+        parts.append(f"{listed(untried)} may do, which {'was' if len(untried) == 1 else 'were'} not tried")
     if low > 1:
         smaller = fleets.tried[low - 1]
         words = f"{low - 1} {'does' if low == 2 else 'do'} not{_in_time(smaller)}"
-        parts.append(f"{words}: {lacking(smaller)} run out first")
+        parts.append(f"{words}: {lacking(smaller, low - 1)} run out first")
     return f"{name}: {'; '.join(parts)}"
 
 
@@ -57,10 +60,8 @@ def _in_time(found: FleetFigures) -> str:
     return f" ({share.mean:.1%} of them in time, {limit})"
 
 
-def _evidence(found: FleetFigures | None) -> str:
+def _evidence(found: FleetFigures) -> str:
     """What the runs of an undecided fleet show."""
-    if found is None:
-        return "was not tried"
     if found.in_time is None:
         return f"{counted(found.runs, 'run')} do not show"
     share = found.in_time
@@ -76,14 +77,19 @@ def _chargers(fleets: Fleets) -> str:
     return f" with {counted(high, 'charger')}" + (f" ({low} may do)" if low < high else "")
 
 
-def lacking(found: FleetFigures) -> str:
-    """Return what a fleet lacks: chargers or robots that are busy all the time, lifts, or aisles where robots stand."""
+def lacking(found: FleetFigures, robots: int) -> str:
+    """Return what a fleet lacks: chargers or robots that are busy all the time, lifts, or aisles where robots stand.
+
+    Args:
+        found: what its runs show.
+        robots: their number; one robot alone blocks no other one, and stands only where it serves.
+    """
     if found.chargers_busy is not None and found.chargers_busy >= ALL_BUSY:
         return "chargers"
     if found.lifts is not None and found.lifts >= max(SOME, found.blocked / 2):
         return "lifts"
     busy = found.utilisation + (found.charging or 0.0)
-    return "robots" if busy >= ALL_BUSY and found.blocked < 1 - ALL_BUSY else "aisles"
+    return "robots" if busy >= ALL_BUSY and (robots == 1 or found.blocked < 1 - ALL_BUSY) else "aisles"
 
 
 @attrs.frozen(kw_only=True)
@@ -138,7 +144,7 @@ def table(rows: Sequence[Row], currency: str) -> tuple[list[str], list[list[Any]
 def _cells(row: Row) -> list[Any]:
     found = row.found
     p95 = None if found.p95 is None else f"{found.p95:.1f}"
-    out = "" if row.verdict is Verdict.SERVES else lacking(found)
+    out = "" if row.verdict is Verdict.SERVES else lacking(found, row.robots)
     figures = [f"{found.per_hour:.1f}", p95, found.growth.verdict, f"{found.utilisation:.0%}", f"{found.blocked:.0%}"]
     return [row.name, row.verdict, found.runs, *figures, out]
 

@@ -35,10 +35,10 @@ def test_the_smallest_fleet_comes_first_and_then_what_one_fewer_lacks():
 
 
 def test_fleets_that_may_do_come_with_what_is_known_of_them():
-    fleets = search({3: figures(BOUNDED, EITHER, runs=64), 2: figures(GROWING, None), 4: figures(BOUNDED, None)})
+    fleets = search({3: figures(BOUNDED, EITHER, runs=64), 2: figures(GROWING, None), 6: figures(BOUNDED, None)})
     assert sentence("hall", fleets, LOAD) == (
-        "hall: 4 robots serve 60/h orders within 4min; 3 may do, which 64 runs do not show (95.0% [93.0%, 97.0%] in"
-        " time); 2 do not: aisles run out first"
+        "hall: 6 robots serve 60/h orders within 4min; 3 may do, which 64 runs do not show (95.0% [93.0%, 97.0%] in"
+        " time); 5 and 4 may do, which were not tried; 2 do not: aisles run out first"
     )
 
 
@@ -63,7 +63,11 @@ def test_the_fewest_chargers_belong_to_the_fleet():
     ],
 )
 def test_what_runs_out_first(values, word):
-    assert lacking(figures(**values)) == word
+    assert lacking(figures(**values), 2) == word
+
+
+def test_one_robot_blocks_no_other_one():
+    assert lacking(figures(utilisation=0.98, blocked=0.19), 1) == "robots"
 
 
 def test_a_fleet_with_an_empty_battery_serves_nothing():
