@@ -12,7 +12,7 @@ from mrpbench_league.files.motion import Motion, write_segments, write_steps
 from mrpbench_league.files.output import LorrOutput, write_output
 from mrpbench_league.files.problem import LorrProblem
 
-DEEP = 1000
+DEEP = 3000
 """Robots up to which operations have five actions by default."""
 SEGMENT = 100
 """Ticks of a segment of motion (2026)."""
@@ -24,7 +24,7 @@ class Options:
 
     planner: Literal["pibt", "epibt"] = "epibt"
     depth: int | None = attrs.field(default=None, validator=attrs.validators.in_((None, 3, 4, 5)))
-    """Actions of an operation of `epibt`. None: 5 up to 1,000 robots, else 4, since a round takes
+    """Actions of an operation of `epibt`. None: 5 up to 3,000 robots, else 4, since a round takes
     a third of the time then."""
     improve: bool = True
     """Large neighbourhood search of `epibt`, as long as there is time."""

@@ -22,7 +22,7 @@ class StepPlanner(Planner):
     )
     depth: int | None = option(
         None,
-        help="actions of an operation of epibt; none: 5 up to 1,000 robots, else 4",
+        help="actions of an operation of epibt; none: 5 up to 3,000 robots, else 4",
         validator=attrs.validators.in_((None, 3, 4, 5)),
     )
     improve: bool = option(True, help="improve the operations of epibt by large neighbourhood search")
