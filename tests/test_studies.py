@@ -28,6 +28,7 @@ RUNS_PER_PLANNER = {
     "controllers": 240,
     "encounters": 120,
     "people": 400,
+    "prediction": 720,
     "people_floors": 80,
     "floor": 20,
     "floor_grid": 10,

@@ -26,7 +26,7 @@ struct Forecast {
 
 /// The options of critics that keep away from predicted places, of DWB and MPPI alike.
 struct ForecastOptions {
-  double distance = 0.5, near_score = 0.2, last_weight = 0.5;
+  double distance = 0.5, near_score = 0.05, last_weight = 0.5;
 
   /// The rows of a struct that derives from this one.
   template <class Options>
