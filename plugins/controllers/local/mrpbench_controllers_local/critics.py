@@ -114,7 +114,7 @@ def with_prediction(critics: tuple[C, ...], predicted: C, prediction: Predictor 
     listed = any(type(critic) is type(predicted) for critic in critics)
     if listed and prediction is None:
         raise InputError(
-            f"controller: the critic {type(predicted).__name__} needs a `prediction`",
+            f"the critic {type(predicted).__name__} needs a `prediction`",
             hint="for example `prediction: constant_velocity`",
         )
     return critics if listed or prediction is None else (*critics, predicted)
