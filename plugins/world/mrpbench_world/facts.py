@@ -8,11 +8,11 @@ import numpy as np
 
 from mrpbench_core.checking.clearance import has_clearance, solids
 from mrpbench_core.checking.components import components
-from mrpbench_core.checking.door_sweeps import check_door_sweeps
 from mrpbench_core.checking.navigation import called, crossings, duplicates, graphs, unique_edges, vertices_on_lanes
-from mrpbench_core.checking.passages import narrow_passages
 from mrpbench_core.model.planning.roadmap import Roadmap
 from mrpbench_core.model.worlds.world import World
+from mrpbench_world.door_sweeps import check_door_sweeps
+from mrpbench_world.passages import narrow_passages
 
 
 @attrs.frozen(kw_only=True)

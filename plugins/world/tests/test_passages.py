@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
+from mrpbench_world.passages import narrow_passages
 from mrpbench_worlds_standard.shipped import Household, Office, Warehouse
 
-from mrpbench_core.checking.passages import narrow_passages
 from mrpbench_core.model.worlds.world import Level, Obstacle
 
 

@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
+from mrpbench_world.door_sweeps import check_door_sweeps
 from mrpbench_world.facts import check_world
 
 from mrpbench_core.builtin.roadmaps.graph import Graph
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
-from mrpbench_core.checking.door_sweeps import check_door_sweeps
 from mrpbench_core.model.common.fleet import Fleet, RobotModel
 from mrpbench_core.model.worlds.world import Door, Lane, Level, Vertex, World
 
