@@ -69,6 +69,11 @@ from mrpbench_core.api.controller import (
     FleetOfOne as FleetOfOne,
 )
 from mrpbench_core.api.navigator import Navigator as Navigator, NavigatorSession as NavigatorSession
+from mrpbench_core.api.predictor import (
+    Prediction as Prediction,
+    Predictor as Predictor,
+    PredictorSession as PredictorSession,
+)
 from mrpbench_core.api.recovery import (
     Recovery as Recovery,
     RecoverySession as RecoverySession,

@@ -32,6 +32,7 @@ from mrpbench_core.testing.suites.localizer import LocalizerConformance
 from mrpbench_core.testing.suites.metric import MetricConformance
 from mrpbench_core.testing.suites.navigator import NavigatorConformance
 from mrpbench_core.testing.suites.planner import PlannerConformance
+from mrpbench_core.testing.suites.predictor import PredictorConformance
 from mrpbench_core.testing.suites.recovery import RecoveryConformance
 from mrpbench_core.testing.suites.roadmap import RoadmapConformance
 from mrpbench_core.testing.suites.scenario import ScenarioConformance
@@ -61,6 +62,7 @@ __all__ = [
     "MetricConformance",
     "NavigatorConformance",
     "PlannerConformance",
+    "PredictorConformance",
     "RecoveryConformance",
     "RoadmapConformance",
     "ScenarioConformance",

@@ -151,7 +151,7 @@ def test_keeps_the_contract_of_its_kind(provider, tmp_path, monkeypatch, frozen_
 
 
 def test_every_kind_has_a_suite():
-    assert SUITES.keys() == {*KINDS, "recovery"}
+    assert SUITES.keys() == {*KINDS, "recovery", "predictor"}
     alone = {*SUITES, "interface"}  # an interface needs somebody at its other end
     own = {kind_class(load(provider)) for provider in COMPONENTS if provider.kind not in alone}
     assert all(kind.suite for kind in own)

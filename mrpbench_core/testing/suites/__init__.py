@@ -16,6 +16,7 @@ from mrpbench_core.testing.suites.localizer import LocalizerConformance
 from mrpbench_core.testing.suites.metric import MetricConformance
 from mrpbench_core.testing.suites.navigator import NavigatorConformance
 from mrpbench_core.testing.suites.planner import PlannerConformance
+from mrpbench_core.testing.suites.predictor import PredictorConformance
 from mrpbench_core.testing.suites.recovery import RecoveryConformance
 from mrpbench_core.testing.suites.roadmap import RoadmapConformance
 from mrpbench_core.testing.suites.scenario import ScenarioConformance
@@ -40,6 +41,7 @@ SUITES: dict[str, type[ComponentConformance]] = {
     "format": FormatConformance,
     "executor": ExecutorConformance,
     "recovery": RecoveryConformance,
+    "predictor": PredictorConformance,
 }
 
 

@@ -4,6 +4,7 @@ from mrpbench_controllers_local import testing
 
 from mrpbench_controllers_dwb.critic import Critic
 from mrpbench_controllers_dwb.dwb import Dwb
+from mrpbench_controllers_dwb.nav2_critics import PredictedObstacle
 
 
 class CriticConformance(testing.CriticConformance):
@@ -15,4 +16,6 @@ class CriticConformance(testing.CriticConformance):
 
     def controller(self) -> Dwb:
         """Return `dwb` with this critic alone."""
-        return Dwb(critics=(self.make(),))
+        critic = self.make()
+        prediction = testing.NothingMoves() if isinstance(critic, PredictedObstacle) else None
+        return Dwb(critics=(critic,), prediction=prediction)

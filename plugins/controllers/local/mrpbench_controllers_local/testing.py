@@ -1,5 +1,6 @@
 """Checks that the critics of every controller must pass; the suite of a controller derives from them."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import attrs
@@ -7,7 +8,12 @@ import numpy as np
 
 from mrpbench_controllers_local.critics import Critic, CriticSession, NativeCritic, Trajectories
 from mrpbench_core.api.controller import Controller
+from mrpbench_core.api.predictor import Prediction, Predictor, PredictorSession
 from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.execution.observation import ScanBatch
+from mrpbench_core.model.planning.problem import Problem
+from mrpbench_core.model.worlds.world import World
 from mrpbench_core.testing.faults import Skip, require
 from mrpbench_core.testing.fixtures.room import PERIOD, ROBOT, driven, room
 from mrpbench_core.testing.suites.component import ComponentConformance
@@ -59,6 +65,25 @@ class CriticConformance(ComponentConformance):
         """The robot may stand, because a critic may forbid every motion."""
         driving = drive(self.controller().start(ROBOT, room(), PERIOD), STRAIGHT, seconds=1.0)
         require(np.isfinite(driving.twist).all(), "the controller commands a speed that is not finite with this critic")
+
+
+class NothingMoves(Predictor):
+    """Predicts nothing, for critics that need a prediction."""
+
+    def start(self, robots: Sequence[RobotModel], world: World) -> PredictorSession:  # noqa: ARG002 - in any world
+        """Begin to predict nothing."""
+        return _Nothing()
+
+
+class _Nothing(PredictorSession):
+    def observe(self, pose: Float, scans: Sequence[ScanBatch]) -> tuple[ScanBatch, ...]:  # noqa: ARG002
+        return tuple(scans)
+
+    def predict(self, now: float) -> Prediction:  # noqa: ARG002
+        return Prediction(step=0.1, robot=np.zeros(0, np.int32), place=np.zeros((0, 31, 2)), radius=np.zeros(0))
+
+    def constrained(self, problem: Problem, now: float) -> Problem:  # noqa: ARG002
+        return problem
 
 
 def trajectories(samples: int) -> Trajectories:

@@ -4,6 +4,7 @@ from mrpbench_controllers_local import testing
 
 from mrpbench_controllers_mppi.critic import MppiCritic
 from mrpbench_controllers_mppi.mppi import Mppi
+from mrpbench_controllers_mppi.nav2_critics import PredictedObstacleCritic
 
 
 class MppiCriticConformance(testing.CriticConformance):
@@ -15,4 +16,6 @@ class MppiCriticConformance(testing.CriticConformance):
 
     def controller(self) -> Mppi:
         """Return `mppi` with this critic alone."""
-        return Mppi(critics=(self.make(),))
+        critic = self.make()
+        prediction = testing.NothingMoves() if isinstance(critic, PredictedObstacleCritic) else None
+        return Mppi(critics=(critic,), prediction=prediction)
