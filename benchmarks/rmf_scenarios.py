@@ -122,7 +122,7 @@ def main() -> int:
         for process in running:
             process.wait()
         results = {name: Results(ResultsFolder(Path(folder) / name)) for name in words}
-        if not all(list(found) for found in results.values()):
+        if not all(list(swaps) for swaps in results.values()):
             print("".join((Path(folder) / f"{name}.log").read_text() for name in words))
             return 1
         (robots,), (traffic,) = results.values()

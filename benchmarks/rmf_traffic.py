@@ -142,7 +142,7 @@ class Clocks:
     def _sent(self) -> int:
         return sum(wire.sent for wire in self._wires)
 
-    def found(self) -> dict[str, Any]:
+    def measured(self) -> dict[str, Any]:
         """What was measured so far."""
         assert self._began is not None
         wall, cpu, sent = self._began
@@ -209,7 +209,7 @@ class Destinations:
         message = new(PACKAGE + "Destination", constraints=constraints, session=session)
         self._wire.publish(f"{self._names[robot]}/destination", message)
 
-    def found(self) -> dict[str, Any]:
+    def measured(self) -> dict[str, Any]:
         """What was counted."""
         return {"tasks": 3600 * self.done / (self._seconds - self._warm_up), "stuck": len(self.stuck)}
 
@@ -232,16 +232,16 @@ def run_part(
             profile.enable()
         record = execute(point.config, part, paths, announce=clocks.announce, hooks=hooks)
         profile.disable()
-    found = clocks.found() | {
+    measured = clocks.measured() | {
         "status": str(record.status),
         "error": record.error and str(record.error),
         "metrics": dict(record.metrics),
     }
-    found |= destinations.found() if part == "robots" else {}
+    measured |= destinations.measured() if part == "robots" else {}
     if options.profile:
         print(part)
         pstats.Stats(profile).sort_stats("tottime").print_stats(options.profile)
-    results.put((part, json.loads(json.dumps(found, default=float))))
+    results.put((part, json.loads(json.dumps(measured, default=float))))
 
 
 def measure(options: argparse.Namespace, robots: int, planner: str) -> dict[str, dict[str, Any]]:
@@ -254,10 +254,10 @@ def measure(options: argparse.Namespace, robots: int, planner: str) -> dict[str,
     ]
     for process in processes:
         process.start()
-    found: dict[str, dict[str, Any]] = {}
-    while len(found) < len(processes):
+    measured: dict[str, dict[str, Any]] = {}
+    while len(measured) < len(processes):
         try:
-            found |= [results.get(timeout=1.0)]
+            measured |= [results.get(timeout=1.0)]
         except queue.Empty:
             if any(process.exitcode for process in processes):  # which has printed why
                 for process in processes:
@@ -265,7 +265,7 @@ def measure(options: argparse.Namespace, robots: int, planner: str) -> dict[str,
                 sys.exit(1)
     for process in processes:
         process.join()
-    return found
+    return measured
 
 
 def main() -> None:
@@ -288,8 +288,8 @@ def main() -> None:
     )
     for planner in options.planners:
         for robots in options.robots:
-            found = measure(options, robots, planner)
-            fleet, traffic = found["robots"], found["traffic"]
+            measured = measure(options, robots, planner)
+            fleet, traffic = measured["robots"], measured["traffic"]
             metrics = fleet["metrics"]
             clearance = metrics.get("execution.min_clearance_m") or math.nan
             print(
@@ -300,7 +300,7 @@ def main() -> None:
                 f"{1e3 * traffic['lag']:7.0f} {os.getloadavg()[0]:.1f}",
                 flush=True,
             )
-            for name, part in found.items():
+            for name, part in measured.items():
                 if part["error"] or part["status"] != "succeeded":
                     print(f"       {name}: {part['status']}: {part['error']}", flush=True)
 

@@ -146,8 +146,8 @@ class OrderKeepingSession(DispatcherSession):
             return self.counts, _NOBODY
         self._view_counts = view.reached, view.cleared
         counts = self.counts.copy()
-        for known, told in zip(counts, self._view_counts, strict=True):
-            np.maximum(known, told, out=known)
+        for known, reported in zip(counts, self._view_counts, strict=True):
+            np.maximum(known, reported, out=known)
         reached, cleared = counts != self.counts
         return counts, (reached | cleared).nonzero()[0]
 

@@ -53,9 +53,9 @@ Output places_array(const Places& places, std::size_t count) {
 }
 
 std::pair<nb::ndarray<nb::numpy, std::int32_t>, Output> predict(const Fleet& self, double now) {
-  Predicted found = self.predict(now);
-  const std::size_t size = found.robot.size();
-  return {own(std::move(found.robot), {size}), places_array(found.places, found.count)};
+  Predicted predicted = self.predict(now);
+  const std::size_t size = predicted.robot.size();
+  return {own(std::move(predicted.robot), {size}), places_array(predicted.places, predicted.count)};
 }
 
 Output tracks(const Fleet& self, std::size_t robot) {

@@ -55,7 +55,7 @@ class Arrivals:
         """The progress in the control period before."""
         self._finished: Int = np.zeros(0, np.int64)
         """i8[k]: robots that had reached all of their routes then."""
-        self._seen: tuple[object, ...] = ()
+        self._compared: tuple[object, ...] = ()
         """What the last result followed from, if it follows from the same again."""
         self._leads = leads
         self._recorded = np.maximum(self._recorded - cut, 0).astype(np.int32)
@@ -70,17 +70,17 @@ class Arrivals:
             self._reached, self._finished = motion.reached, (motion.reached >= self._last).nonzero()[0]
         at = self._finished
         if not len(at):
-            if self._seen or self.claimed is not self._nobody:
+            if self._compared or self.claimed is not self._nobody:
                 self.claimed = self.arrived = self.mistaken = self._nobody
-                self._rests_since[:], self._seen = np.inf, ()
+                self._rests_since[:], self._compared = np.inf, ()
             self._recorded = motion.reached
             return motion
         pose, twist = state.pose.take(at, 0), state.twist.take(at, 0)
-        seen = motion.mode, state.level, at.tobytes(), pose.tobytes(), twist.tobytes()
-        if not self._far and self._seen and all(map(is_, seen[:2], self._seen)) and seen[2:] == self._seen[2:]:
+        compared = motion.mode, state.level, at.tobytes(), pose.tobytes(), twist.tobytes()
+        before, self._compared = self._compared, compared
+        if not self._far and before and all(map(is_, compared[:2], before)) and compared[2:] == before[2:]:
             self._recorded = motion.reached
             return motion
-        self._seen = seen
         return self._compare(now, state, motion)
 
     def _compare(self, now: float, state: State, motion: Motion) -> Motion:

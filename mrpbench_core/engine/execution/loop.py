@@ -262,8 +262,8 @@ class ExecutionLoop(ControlLoop):
     def _all_done(self, gave_up: Bool) -> bool:
         """Tell whether each robot of a batch has arrived, or will not."""
         arrivals, reactions, faults = self._arrivals, self._reactions, self._inputs.faults
-        seen = arrivals.arrived, arrivals.mistaken, gave_up
-        if self._done is not None and all(map(is_, seen, self._done)):
+        compared = arrivals.arrived, arrivals.mistaken, gave_up
+        if self._done is not None and all(map(is_, compared, self._done)):
             return False
         done = arrivals.arrived | arrivals.mistaken
         if faults:
@@ -272,7 +272,7 @@ class ExecutionLoop(ControlLoop):
         done |= gave_up
         if int(np.count_nonzero(done)) == len(done):
             return True
-        self._done = None if faults else seen
+        self._done = None if faults else compared
         return False
 
     def _stands_still(self) -> bool:

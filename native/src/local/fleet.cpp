@@ -11,8 +11,8 @@ Fleet::Fleet(std::vector<Segment> walls, double reach, int threads)
     : walls_(std::make_shared<const StaticMap>(std::move(walls), reach)), team_(threads) {}
 
 void Fleet::add(const RobotOptions& options, std::unique_ptr<Controller> controller) {
-  robots_.push_back(
-      std::make_unique<Robot>(Robot{Costmap(options.costmap, walls_), std::move(controller), options, -1e9, {}, false}));
+  robots_.push_back(std::make_unique<Robot>(
+      Robot{Costmap(options.costmap, walls_), std::move(controller), options, -1e9, {}, false}));
 }
 
 /// Update a costmap as often as its options say.

@@ -15,14 +15,14 @@ Point Forecast::at(std::size_t disc, double time) const {
 
 std::vector<std::size_t> within_reach(const Forecast& forecast, Point robot, double radius, double way,
                                       double distance) {
-  std::vector<std::size_t> found;
+  std::vector<std::size_t> discs;
   for (std::size_t i = 0; i < forecast.size(); ++i) {
     const double reach = forecast.radius[i] + radius + way + distance;
     if (std::ranges::any_of(forecast.of(i), [&](Point it) { return sim::length(it - robot) < reach; })) {
-      found.push_back(i);
+      discs.push_back(i);
     }
   }
-  return found;
+  return discs;
 }
 
 }  // namespace mrpbench::local

@@ -116,9 +116,9 @@ std::vector<Detection> detect(const Scan& scan, const Map& map, std::span<const 
     join(parts[one], parts[other]);
     parts.erase(parts.begin() + static_cast<std::ptrdiff_t>(other));
   }
-  std::vector<Detection> found;
-  for (Part& it : parts) found.push_back({centre(it), std::move(it.beams)});
-  return found;
+  std::vector<Detection> detections;
+  for (Part& it : parts) detections.push_back({centre(it), std::move(it.beams)});
+  return detections;
 }
 
 }  // namespace mrpbench::tracking

@@ -66,24 +66,24 @@ Places Fleet::foresee(const Robot& robot, std::size_t index, std::span<const Pos
 }
 
 Predicted Fleet::predict(double now) const {
-  Predicted found;
-  found.count = count_;
+  Predicted predicted;
+  predicted.count = count_;
   for (std::size_t index = 0; index < robots_.size(); ++index) {
     const Robot& it = robots_[index];
     const double later = (now - it.seen) / kStep;
     if (it.places.empty() || now - it.seen > options_.lost_after || later < 0) continue;
     for (std::size_t first = 0; first < it.places.size(); first += kept_) {
-      found.robot.push_back(static_cast<std::int32_t>(index));
+      predicted.robot.push_back(static_cast<std::int32_t>(index));
       for (std::size_t k = 0; k < count_; ++k) {
         const double at = std::min(later + static_cast<double>(k), static_cast<double>(kept_ - 1));
         const auto before = std::min(static_cast<std::size_t>(at), kept_ - 2);
         const double share = at - static_cast<double>(before);
         const Point* const place = &it.places[first + before];
-        found.places.push_back(place[0] * (1 - share) + place[1] * share);
+        predicted.places.push_back(place[0] * (1 - share) + place[1] * share);
       }
     }
   }
-  return found;
+  return predicted;
 }
 
 }  // namespace mrpbench::tracking

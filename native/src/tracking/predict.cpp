@@ -3,14 +3,14 @@
 namespace mrpbench::tracking {
 
 Places by_constant_velocity(std::span<const Walker> objects, double step, std::size_t count) {
-  Places found;
-  found.reserve(objects.size() * count);
+  Places places;
+  places.reserve(objects.size() * count);
   for (const Walker& it : objects) {
     for (std::size_t k = 0; k < count; ++k) {
-      found.push_back(it.place + it.velocity * (step * static_cast<double>(k)));
+      places.push_back(it.place + it.velocity * (step * static_cast<double>(k)));
     }
   }
-  return found;
+  return places;
 }
 
 Places by_social_force(std::span<const Walker> objects, double radius, const std::vector<Segment>& walls,
@@ -31,12 +31,12 @@ Places by_social_force(std::span<const Walker> objects, double radius, const std
   const std::vector<unsigned char> regard(size, sim::Walkers::as_people);
   std::vector<Walker> others;
   for (const Point it : robots) others.push_back({it, {}});
-  Places found(size * count);
+  Places predicted(size * count);
   for (std::size_t k = 0; k < count; ++k) {
     if (k > 0) walkers.step(step, {wanted, push, regard}, others, robot_radius, others.size(), {});
-    for (std::size_t i = 0; i < size; ++i) found[i * count + k] = walkers.places()[i];
+    for (std::size_t i = 0; i < size; ++i) predicted[i * count + k] = walkers.places()[i];
   }
-  return found;
+  return predicted;
 }
 
 }  // namespace mrpbench::tracking

@@ -53,22 +53,22 @@ std::vector<std::size_t> Tracker::update(double now, std::span<const Detection> 
   }
   // What is lost goes, and the others keep their order.
   std::vector<std::size_t> index(tracks_.size(), none);
-  std::vector<Track> kept;
+  std::vector<Track> next;
   for (std::size_t t = 0; t < tracks_.size(); ++t) {
     if (now - tracks_[t].detected > options.lost_after) continue;
-    index[t] = kept.size();
-    kept.push_back(tracks_[t]);
+    index[t] = next.size();
+    next.push_back(tracks_[t]);
   }
   for (std::size_t d = 0; d < detections.size(); ++d) {
     if (track_of[d] != none) {
       track_of[d] = index[track_of[d]];
       continue;
     }
-    track_of[d] = kept.size();
+    track_of[d] = next.size();
     const double deviation = options.measurement_deviation;
-    kept.push_back({detections[d].centre, {}, deviation * deviation, 0, kSpeedDeviation * kSpeedDeviation, 1, now});
+    next.push_back({detections[d].centre, {}, deviation * deviation, 0, kSpeedDeviation * kSpeedDeviation, 1, now});
   }
-  tracks_ = std::move(kept);
+  tracks_ = std::move(next);
   return track_of;
 }
 

@@ -196,9 +196,9 @@ class Codec:
 
 def _aligned(codes: str, begin: int) -> str:
     """Return the format of numbers that begin after so many bytes, with the bytes by which they are aligned."""
-    found = ["<"]
+    aligned = ["<"]
     for code in codes:
         size = struct.calcsize(f"<{code}")
-        found.append("x" * (-begin % size) + code)
+        aligned.append("x" * (-begin % size) + code)
         begin += -begin % size + size
-    return "".join(found)
+    return "".join(aligned)
