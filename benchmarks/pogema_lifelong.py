@@ -122,7 +122,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--planner", default="pbs", help="as in a study, e.g. '{plugin: pibt}'")
     parser.add_argument("--maps", type=int, default=128)
-    parser.add_argument("--robots", type=int, nargs="*", default=list(PUBLISHED))
+    parser.add_argument("--robots", type=int, nargs="*", choices=list(PUBLISHED), default=[32], help="64 take hours")
     wanted = parser.parse_args()
     study = {"world": "office", "scenario": {"robots": 1}, "planner": yaml.safe_load(wanted.planner)}
     planner = load_study(study).runs[0].config.planner
