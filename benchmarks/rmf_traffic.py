@@ -73,7 +73,7 @@ def config(options: argparse.Namespace, robots: int, part: str, planner: str, do
     """One of the two runs."""
     run: dict[str, Any] = {
         "name": part,
-        "world": {"plugin": "generated_warehouse", "cell_size": 1.0},
+        "world": {"plugin": "generated_warehouse", "resolution": 1.0},
         "roadmap": "grid",
         "scenario": {"plugin": "random", "robots": robots},
         "fleet": "amr.yaml",

@@ -50,6 +50,7 @@ KINDS: Mapping[str, Kind] = {
         standard=True,
         suites="mrpbench_controllers_mppi.testing",
     ),
+    "predictor": Kind(usage="In a configuration: `controller: {plugin: dwb, prediction: $name}`."),
     "recovery": Kind(usage="In a configuration: `navigator: {plugin: waypoints, recoveries: [clear, $name, wait]}`."),
     "scenario": Kind(options={"robots": 3}),
     "task_source": Kind(usage="In a configuration: `tasks: {plugin: $name}`."),
