@@ -7,20 +7,19 @@ in the results of https://github.com/CognitiveAISystems/pogema-benchmark. Robots
 """
 
 import argparse
-import itertools
-import pickle
+import runpy
 import statistics
-import subprocess
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import attrs
 import numpy as np
 import yaml
-from mrpbench_policies.maps import MOVES
-from mrpbench_policies.pogema.files import read_map
+from mrpbench_policies.board import Board, board_of
+from mrpbench_policies.pogema.world import PogemaWorld
 
-from mrpbench_core.api import Budget, Fleet, Goals, Int, Level, Occupancy, Planner, Problem, Roadmap, World
+from mrpbench_core.api import Budget, Fleet, Goals, Int, Planner, Problem, Roadmap
 from mrpbench_core.builtin.roadmaps.grid import GridRoadmap
 from mrpbench_core.config.study import load_study
 from mrpbench_core.files.robot import load_robot
@@ -28,90 +27,68 @@ from mrpbench_core.model.planning.goals import first_problem
 from mrpbench_core.model.planning.problem import features_of
 
 ROOT = Path(__file__).parents[1]
-POGEMA = ROOT / "build" / "pogema"
+PROBLEMS = ROOT / "build" / "pogema" / "benchmark" / "algorithms" / "experiments" / "01-random"
+POGEMA = runpy.run_path(str(ROOT / "plugins/policies/tests/observations/soak_pogema.py"))["Pogema"]
+"""Asks the process of POGEMA."""
 PUBLISHED = {32: 2.286, 64: 3.819}
 """Mean goals a step of RHCR, by number of robots."""
 WINDOW, PERIOD, STEPS = 10, 5, 256
 ROBOT = load_robot("turtlebot3_burger")
 
 
-class Pogema:
-    """An environment of POGEMA in a process of its own."""
-
-    def __init__(self) -> None:
-        server = ROOT / "plugins/policies/tests/observations/pogema_process.py"
-        python = POGEMA / "bin" / "python"
-        self._process = subprocess.Popen([python, server], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
-
-    def ask(self, what: str, value: Any) -> Any:
-        """Return the answer to a request; see the file of the process."""
-        assert self._process.stdin is not None
-        assert self._process.stdout is not None
-        pickle.dump((what, value), self._process.stdin)
-        self._process.stdin.flush()
-        return pickle.load(self._process.stdout)  # noqa: S301 - of our own process
-
-
 @attrs.frozen(kw_only=True, eq=False)
-class Raster:
-    """The roadmap of a map, with rows from the top as in POGEMA."""
+class Grid:
+    """The roadmap of a map, and its cells with row 0 on top as in POGEMA."""
 
     roadmap: Roadmap
-    vertex: Int
-    """i8[rows,columns], -1 = blocked."""
+    board: Board
+    action: Mapping[int, int]
+    """The action that moves a robot along each edge."""
 
     @classmethod
-    def of(cls, blocked: Any) -> "Raster":
-        """Return the roadmap of the cells that are not blocked."""
-        world = World(name="map", levels=(Level(name="L1", occupancy=Occupancy(blocked=blocked[::-1], resolution=1)),))
-        roadmap = GridRoadmap(cell_size=1).build(world, Fleet(robots=(ROBOT,)))
-        assert roadmap.grid is not None
-        vertex = np.full(blocked.shape, -1, np.int64)
-        vertex[len(blocked) - 1 - roadmap.grid.cell[:, 0], roadmap.grid.cell[:, 1]] = np.arange(len(roadmap.position))
-        return cls(roadmap=roadmap, vertex=vertex)
+    def of(cls, file: Path, name: str) -> "Grid":
+        """Return the cells of a map of a file."""
+        roadmap = GridRoadmap(cell_size=1).build(PogemaWorld(file=file, map=name).load(), Fleet(robots=(ROBOT,)))
+        board = board_of(roadmap, 1)
+        assert isinstance(board, Board), board
+        actions = np.argwhere(board.leads >= 0)
+        edges = board.leads[actions[:, 0], actions[:, 1]]
+        return cls(roadmap=roadmap, board=board, action=dict(zip(edges.tolist(), actions[:, 1].tolist(), strict=True)))
+
+    def vertices(self, cells: Any) -> Int:
+        """Return the vertices i8[n] of cells i8[n,2]: rows and columns."""
+        vertices: Int = self.board.vertex[self.board.maps.places(np.asarray(cells, np.int64)[None])[0]].astype(np.int64)
+        return vertices
 
     def problem(self, places: Int, sequences: Any) -> Problem:
         """Return the problem of the next window."""
-        goals: Goals = tuple(tuple((int(self.vertex[cell]),) for cell in sequence) for sequence in sequences)
-        fleet, start = Fleet(robots=(ROBOT,) * len(places)), self.vertex[tuple(places.T)].astype(np.int32)
+        goals: Goals = tuple(tuple((vertex,) for vertex in self.vertices(cells).tolist()) for cells in sequences)
+        fleet, start = Fleet(robots=(ROBOT,) * len(places)), self.vertices(places).astype(np.int32)
         problem = attrs.evolve(first_problem(self.roadmap, fleet, start, goals), horizon=WINDOW)
         return attrs.evolve(problem, features=features_of(problem))
 
-    def cells(self, vertices: Int) -> Int:
-        """Return rows and columns i8[n,2] of vertices i8[n]."""
-        assert self.roadmap.grid is not None
-        cell = self.roadmap.grid.cell[vertices]
-        return np.column_stack([len(self.vertex) - 1 - cell[:, 0], cell[:, 1]])
+    def actions(self, problem: Problem, planner: Planner) -> list[list[int]] | None:
+        """Return the actions of each step of a period, or None if the planner has no plan."""
+        plan = planner.plan(problem, Budget(wall_s=10.0, memory_bytes=2**30)).plan
+        if plan is None:
+            return None
+        steps = [[0] * len(problem) for _ in range(PERIOD)]
+        for robot, path in enumerate(plan.paths):
+            for edge, begin in zip(path.edge.tolist(), path.enter.tolist(), strict=True):
+                if edge >= 0 and begin < PERIOD:
+                    steps[begin][robot] = self.action[edge]
+        return steps
 
 
-def actions(raster: Raster, problem: Problem, planner: Planner) -> list[list[int]] | None:
-    """Return the actions of each step of a period, or None if the planner has no plan."""
-    plan = planner.plan(problem, Budget(wall_s=10.0, memory_bytes=2**30)).plan
-    if plan is None:
-        return None
-    trace = np.tile(problem.start, (PERIOD + 1, 1)).astype(np.int64)
-    head = raster.roadmap.edges[:, 1]
-    for robot, path in enumerate(plan.paths):
-        for edge, arrival in zip(path.edge.tolist(), path.leave.tolist(), strict=True):
-            if edge >= 0 and arrival <= PERIOD:
-                trace[arrival:, robot] = head[edge]
-    steps = []
-    for before, after in itertools.pairwise(trace):
-        moves = raster.cells(after) - raster.cells(before)
-        steps.append([int((move == MOVES).all(axis=1).argmax()) for move in moves])
-    return steps
-
-
-def throughput(pogema: Pogema, blocked: Any, text: str, robots: int, planner: Planner) -> tuple[float, int]:
+def throughput(pogema: Any, file: Path, name: str, text: str, robots: int, planner: Planner) -> tuple[float, int]:
     """Return the goals a step of one episode, and how often the planner had no plan."""
-    raster, failures, steps = Raster.of(blocked), 0, 0
+    grid, failures = Grid.of(file, name), 0
     config = {"map": text, "num_agents": robots, "seed": 0, "max_episode_steps": STEPS}
-    _, places, _ = pogema.ask("reset", config | {"on_target": "restart", "collision_system": "soft"})
+    _, places, _ = pogema.reset(**config, on_target="restart", collision_system="soft")
     while True:
-        chosen = actions(raster, raster.problem(places, pogema.ask("goals", WINDOW + 1)), planner)
+        chosen = grid.actions(grid.problem(places, pogema.goals(WINDOW + 1)), planner)
         failures += chosen is None
-        answers = pogema.ask("steps", chosen or [[0] * robots] * PERIOD)
-        steps += len(answers)
+        answers = pogema.steps(chosen or [[0] * robots] * PERIOD)
         _, places, _, _, _, truncated, metrics = answers[-1]
         if all(truncated):
             return float(metrics["avg_throughput"]), failures
@@ -126,16 +103,17 @@ def main() -> None:
     wanted = parser.parse_args()
     study = {"world": "office", "scenario": {"robots": 1}, "planner": yaml.safe_load(wanted.planner)}
     planner = load_study(study).runs[0].config.planner
-    file = POGEMA / "benchmark" / "algorithms" / "experiments" / "01-random" / "maps.yaml"
+    file = PROBLEMS / "maps.yaml"
     texts = dict(list(yaml.safe_load(file.read_text()).items())[: wanted.maps])
-    pogema = Pogema()
+    pogema = POGEMA()
     for robots in wanted.robots:
-        runs = [throughput(pogema, read_map(file, name), text, robots, planner) for name, text in texts.items()]
+        runs = [throughput(pogema, file, name, text, robots, planner) for name, text in texts.items()]
         rates = [rate for rate, _ in runs]
         reach = 1.96 * statistics.stdev(rates) / len(rates) ** 0.5
         failed = sum(failures for _, failures in runs)
         print(f"{robots} robots, {len(rates)} maps: {statistics.mean(rates):.3f} ± {reach:.3f} goals a step", end="")
         print(f" ({PUBLISHED[robots]:.3f} as published); {failed} windows without a plan", flush=True)
+    pogema.close()
 
 
 if __name__ == "__main__":

@@ -25,16 +25,12 @@ from typing import Any
 import numpy as np
 from mrpbench_live.rmf.messages import messages_of
 from mrpbench_live.rmf.wire import Wire
+from rmf_traffic import LOOPBACK, PACKAGE
 
 from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_core.store.results import Results
 
 FOLDER = Path(__file__).parents[1] / "studies" / "rmf"
-LOOPBACK = (
-    "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name='lo'/></Interfaces>"
-    "<AllowMulticast>false</AllowMulticast></General><Discovery><Peers><Peer address='127.0.0.1'/></Peers>"
-    "<ParticipantIndex>auto</ParticipantIndex></Discovery></Domain></CycloneDDS>"
-)
 NAMES = "robot_0", "robot_1"
 GOALS = {
     "swap": [[(8.5, 0.5), (0.5, 0.5)], [(0.5, 0.5), (8.5, 0.5)]],
@@ -46,7 +42,6 @@ REDIRECTED_AT = 3.5
 """Metres: x of the first robot at which it is sent elsewhere."""
 THERE = 0.25
 """Metres."""
-PACKAGE = "rmf_prototype_msgs/"
 
 
 class Tasks:

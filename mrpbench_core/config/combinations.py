@@ -19,6 +19,7 @@ from mrpbench_core.config.settings import (
 from mrpbench_core.config.shared import Shared
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
+from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.plugins.provenance import origin
 
 IDLE = "has no effect: "
@@ -139,10 +140,8 @@ def _notes(component: Component) -> tuple[str, ...]:
 
 
 def _robot_notes(controller: Controller, robot: str) -> tuple[str, ...]:
-    try:
-        return controller.robot_notes(load_robot(robot))
-    except InputError:  # the runs report it
-        return ()
+    model = _model(robot)
+    return () if model is None else controller.robot_notes(model)
 
 
 def _of_planning_only(config: RunConfig) -> Iterator[tuple[str, str]]:
@@ -209,12 +208,17 @@ def _is_set(value: Any) -> bool:
 
 
 def _has_lidar(entry: FleetEntry) -> bool:
-    if entry.lidar == "none":
-        return False
+    if entry.lidar is not None:
+        return entry.lidar != "none"
+    model = _model(str(entry.robot))
+    return model is None or model.lidar is not None
+
+
+def _model(robot: str) -> RobotModel | None:
     try:
-        return entry.lidar is not None or load_robot(str(entry.robot)).lidar is not None
+        return load_robot(robot)
     except InputError:  # the runs report it
-        return True
+        return None
 
 
 def _is(component: Component | None, name: str) -> bool:

@@ -314,6 +314,8 @@ def _with_present_names(item: Item, fields: Mapping[str, Any], key: str) -> Item
     """Return a block in which each option that has its former name has its present one; log a line of advice."""
     former = {field.metadata.get("former"): name for name, field in fields.items()}
     present = {old: former[old] for old in item.value if old in former and former[old] not in item.value}
+    if not present:
+        return item
     for old, new in present.items():
         LOG.warning(item.value[old].key.error(_join(key, old), f"is called `{new}` now"))
     return attrs.evolve(item, value={present.get(name, name): inner for name, inner in item.value.items()})

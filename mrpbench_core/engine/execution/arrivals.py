@@ -29,13 +29,13 @@ class Arrivals:
         self._tolerance = tolerance
         self._rests_since = np.full(len(routes), np.inf)
         """f8[n]: since when robots that have reached all of their routes rest, as far as it is known."""
-        self._nobody: Bool = np.zeros(len(routes), bool)
+        self._no_robots: Bool = np.zeros(len(routes), bool)
         self._far = False
         """Whether a robot is reported to be where it is not."""
         self._recorded: Int32 = np.zeros(len(routes), np.int32)
         self.away: Float = np.full(len(routes), np.inf)
         """f8[n] metres from the goal, inf on another level or before any robot is reported to be there."""
-        self.claimed: Bool = self._nobody
+        self.claimed: Bool = self._no_robots
         """bool[n]: the robot is reported to have arrived."""
         self.arrived: Bool = self.claimed
         """bool[n]: the robot is reported to have arrived, is at its goal, and rests."""
@@ -70,8 +70,8 @@ class Arrivals:
             self._reached, self._finished = motion.reached, (motion.reached >= self._last).nonzero()[0]
         at = self._finished
         if not len(at):
-            if self._compared or self.claimed is not self._nobody:
-                self.claimed = self.arrived = self.mistaken = self._nobody
+            if self._compared or self.claimed is not self._no_robots:
+                self.claimed = self.arrived = self.mistaken = self._no_robots
                 self._rests_since[:], self._compared = np.inf, ()
             self._recorded = motion.reached
             return motion

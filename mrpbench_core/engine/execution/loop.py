@@ -318,7 +318,7 @@ class ExecutionLoop(ControlLoop):
         recorder.maps(self._checks.maps(self._localizer.map_changes(now, last)))
         if inputs.evaluations is not None:
             recorder.evaluations(now, inputs.evaluations.take())
-        if self._disturbed and inputs.delays:
+        if inputs.delays:
             count = self._driven.count
             recorder.events(inputs.delays.attacked(now, self._motion.reached + count, self._orders.released + count))
         if self._motion.events:
@@ -346,7 +346,7 @@ class ExecutionLoop(ControlLoop):
         commands = inputs.crowds.doors(self._state, commands)
         inputs.crowds.step(self._state)
         twist = inputs.noise.actuated(self._motion.twist)
-        if self._disturbed and inputs.delays:
+        if inputs.delays:
             twist = inputs.delays.driven(twist, self._motion.reached + self._driven.count)
         if inputs.faults:
             commands = inputs.faults.held(commands, self._state.facilities)

@@ -109,7 +109,7 @@ class ReportedFleet(Simulation):
             sys.stderr.write(f"at {now:.1f} s: {change}\n")
 
     def step(self, inputs: Inputs) -> State:
-        """Listen if nobody has in this period, and move the recorded robots; the commands are for simulators."""
+        """Listen, once in each period, and move the recorded robots; the commands are for simulators."""
         del inputs
         self.listen()
         self._steps += 1

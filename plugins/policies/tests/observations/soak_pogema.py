@@ -36,6 +36,10 @@ class Pogema:
         """Act so many times; return observations, places, goals, rewards, ends, truncations and metrics of each."""
         return self._ask("steps", [list(map(int, some)) for some in actions])
 
+    def goals(self, count):
+        """Return the next goals of each robot, rows and columns, the present one first."""
+        return self._ask("goals", count)
+
     def close(self):
         self._process.stdin.close()
         self._process.wait()
