@@ -107,13 +107,13 @@ double wrapped(double angle) {
 
 Twist pursue(const PursuitOptions& options, const PursuingRobot& robot, const Pursuit& seen, bool& turning) {
   const double braking = robot.cruise * options.period + robot.cruise * robot.cruise / (2 * robot.acceleration);
-  const Point place{seen.pose.x, seen.pose.y}, end = seen.points.back();
+  const Point place{seen.pose.x, seen.pose.y};
   Point first = seen.foot;
   std::span<const Point> points = seen.points;
   double left = path_length(first, points, braking);
   bool resting = false;
   if (left <= at_end) {
-    const double away = apart(end, place);
+    const double away = apart(seen.points.back(), place);
     resting = away <= back_to_end;
     if (!resting && left == 0) {  // away from the end of a path of which nothing is left
       first = place;
