@@ -200,20 +200,14 @@ class DependencyGraph:
         robots, kinds = (counts > self._met).T.nonzero()
         row = (kinds * len(self.frontier) + robots) * self._stride
         begin, end = (
-            self._keys.searchsorted(row + its[kinds, robots], side="right").tolist() for its in (self._met, counts)
+            self._keys.searchsorted(row + its[kinds, robots], "right").tolist() for its in (self._met, counts)
         )
         self._met, self._unmet_rows = counts, None
         ready: list[int] = []
-        unmet = self.unmet
-        for at, last in zip(begin, end, strict=True):
-            for group in self._waiting[at:last]:
-                unmet[group] -= 1
-                if not unmet[group]:
-                    ready.append(group)
-        if not self.rotations:
-            for move in ready:
-                self._advance(self.robot[move])
-            return
+        for group in (group for met in map(slice, begin, end) for group in self._waiting[met]):
+            self.unmet[group] -= 1
+            if not self.unmet[group]:
+                ready.append(group)
         self.rotating += [self.rotations[group] for group in ready if group in self.rotations]
         for group in ready:
             for move in self.rotations.get(group, (group,)):
