@@ -72,7 +72,7 @@ def _occupations(problem: Problem, plan: Plan) -> Int:
     table = np.empty((5, 2 * len(move) + len(robots)), np.int64)
     robot, tail, head, begin, end = table
     robot[:] = np.repeat(robots, 2 * count + 1)
-    tail[move], head[move] = problem.roadmap.edges[moves.edge].reshape(-1, 2).T
+    tail[move], head[move] = problem.roadmap.edges.take(moves.edge, axis=0).T
     begin[move], end[move] = moves.enter, moves.leave + late
     head[first], begin[first] = problem.start, since
     head[move + 1], begin[move + 1] = head[move], moves.leave

@@ -28,7 +28,8 @@ class Segments(NamedTuple):
 
     def where(self, chosen: Bool) -> "Segments":
         """Some of them."""
-        return Segments(*(column[chosen] for column in self))
+        at = chosen.nonzero()[0]  # indices are taken in a fraction of the time of a mask
+        return Segments(*(column.take(at) for column in self))
 
     @property
     def follows(self) -> Bool:
@@ -94,7 +95,7 @@ def _of_times(problem: Problem, segments: Segments) -> Faults:
 def _of_moves(problem: Problem, segments: Segments) -> Faults:
     moves = segments.where(segments.edge >= 0)
     robots, index, edge, enter, leave = moves
-    tail, head = problem.roadmap.edges[edge].reshape(-1, 2).T
+    tail, head = problem.roadmap.edges.take(edge, axis=0).T
     duration = problem.roadmap.duration[problem.profile[robots], edge]
     committed = problem.committed[robots]  # to what may be forbidden since then
     for row in np.flatnonzero((duration < 0) & (index >= committed)).tolist():

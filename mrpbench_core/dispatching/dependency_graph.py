@@ -16,7 +16,6 @@ from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.type2_edges import Moves, Type2Edges, moves_of, type2_edges
 
-_NEVER = 2**62
 REACHED, CLEARED = 0, 1
 """Rows of the counts of leading segments i8[2,n], see `mrpbench_core.model.execution.orders.FleetView`."""
 
@@ -64,8 +63,8 @@ class DependencyGraph:
         """i8[m]: the first move of the group of each move."""
         sizes = Paths.of(plan.paths).size
         self._stride = int(sizes.max(initial=0)) + 1
-        self._met = counts.reshape(-1).astype(np.int64).data
-        """The number of segments up to which dependencies are met: rows of REACHED, then those of CLEARED."""
+        self._met = counts
+        """The numbers i8[2,n] of segments up to which dependencies are met."""
         waiting = self._wait_for(np.concatenate([self._dependencies(self.order), self._follows()]))
         unmet = np.bincount(waiting, minlength=len(moves.robot)).astype(np.int32)
         # Numbers from here on are read and written one at a time: views do that faster than arrays.
@@ -92,7 +91,7 @@ class DependencyGraph:
         """A graph that goes on from here by itself."""
         twin = copy.copy(self)
         twin.requests = self.requests.copied()
-        for name in ("unmet", "frontier", "_met", "_at"):
+        for name in ("unmet", "frontier"):
             setattr(twin, name, np.array(getattr(self, name)).data)
         twin.rotating, twin.released = self.rotating.copy(), self.released.copy()
         return twin
@@ -101,11 +100,8 @@ class DependencyGraph:
         """Wait for those of the coded dependencies i8[k] that are not met; return the groups that wait for them."""
         coded: Int = np.sort(self._unmet_among(dependencies))
         keys, groups = np.divmod(coded, max(1, len(self.moves.robot)))
-        begin = np.arange(len(self._met)) * self._stride + np.array(self._met)
-        self._open, self._keys, self._waiting = coded, np.append(keys, _NEVER).data, groups.data
+        self._open, self._keys, self._waiting = coded, keys, groups.data
         """The dependencies in order, and the row and number of segments, and the group, of each."""
-        self._at = np.searchsorted(keys, begin, side="right").data
-        """The first dependency on each row that is not met."""
         return groups
 
     def _dependencies(self, order: Type2Edges) -> Int:
@@ -192,35 +188,26 @@ class DependencyGraph:
     def _unmet_among(self, dependencies: Int) -> Int:
         """Those of the coded dependencies that are not met."""
         rows, counts = np.divmod(dependencies // max(1, len(self.moves.robot)), self._stride)
-        return dependencies[counts > np.array(self._met)[rows]]
+        return dependencies[counts > self._met.ravel()[rows]]
 
     def dependencies(self) -> Int:
         """Those that are not met, i8[k,3]: the row and the number of segments, and the group that waits."""
         keys, groups = np.divmod(self._unmet_among(self._open), max(1, len(self.moves.robot)))
         return np.stack([*np.divmod(keys, self._stride), groups], axis=1)
 
-    def update(self, counts: Int, robots: Int) -> None:
-        """Meet the dependencies on `robots` i8[k], given the counts i8[2,n] of leading segments, and release moves."""
+    def update(self, counts: Int) -> None:
+        """Meet dependencies, given the counts i8[2,n] of leading segments, and release moves."""
+        robots, kinds = (counts > self._met).T.nonzero()
+        row = (kinds * len(self.frontier) + robots) * self._stride
+        begin, end = (
+            self._keys.searchsorted(row + its[kinds, robots], "right").tolist() for its in (self._met, counts)
+        )
+        self._met, self._unmet_rows = counts, None
         ready: list[int] = []
-        keys, waiting, unmet, self._unmet_rows = self._keys, self._waiting, self.unmet, None
-        met, stride = self._met, self._stride
-        rows = np.stack([robots, robots + len(self.frontier)], axis=1).ravel()  # of REACHED and of CLEARED
-        for row, value in zip(rows.tolist(), counts.ravel()[rows].tolist(), strict=True):
-            if value <= met[row]:
-                continue
-            met[row] = value
-            at, last = self._at[row], row * stride + value
-            while keys[at] <= last:
-                group = waiting[at]
-                at += 1
-                unmet[group] -= 1
-                if not unmet[group]:
-                    ready.append(group)
-            self._at[row] = at
-        if not self.rotations:
-            for move in ready:
-                self._advance(self.robot[move])
-            return
+        for group in (group for met in map(slice, begin, end) for group in self._waiting[met]):
+            self.unmet[group] -= 1
+            if not self.unmet[group]:
+                ready.append(group)
         self.rotating += [self.rotations[group] for group in ready if group in self.rotations]
         for group in ready:
             for move in self.rotations.get(group, (group,)):

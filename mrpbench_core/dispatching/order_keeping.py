@@ -2,6 +2,7 @@
 
 import copy
 from collections.abc import Mapping
+from operator import is_
 from typing import Self
 
 import attrs
@@ -16,8 +17,6 @@ from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.planning.plan import Paths, Plan
 from mrpbench_core.model.planning.problem import Problem
 from mrpbench_core.model.planning.type2_edges import Moves
-
-_NOBODY: Int = np.zeros(0, np.int64)
 
 
 @attrs.frozen(kw_only=True)
@@ -131,32 +130,30 @@ class OrderKeepingSession(DispatcherSession):
 
     def update(self, now: float, view: FleetView) -> Orders:
         """Release the moves that no longer wait for anything, given the progress of the robots."""
-        counts, changed = self._progress(view)
+        counts = self._progress(view)
         slowed = self._profiles is not None and now >= self._profiles_due
         if slowed and self._profiles is not None:
             self._speed, self._profiles_due = self._profiles.speed(counts, view.pose[:, :2]), now + PERIOD
             self._free = self.graph.released.copy()  # as these limits assume
-        if self.orders is None or len(changed) or self.graph.requests or slowed:
-            self.orders = self._orders(view, counts, changed)
+        if self.orders is None or counts is not self.counts or self.graph.requests or slowed:
+            self.orders = self._orders(view, counts)
         return self.orders
 
-    def _progress(self, view: FleetView) -> tuple[Int, Int]:
-        """The counts i8[2,n] of leading segments reached and cleared, and the robots i8[k] whose counts changed."""
-        if view.reached is self._view_counts[0] and view.cleared is self._view_counts[1]:
-            return self.counts, _NOBODY
-        self._view_counts = view.reached, view.cleared
-        counts = self.counts.copy()
-        for known, reported in zip(counts, self._view_counts, strict=True):
-            np.maximum(known, reported, out=known)
-        reached, cleared = counts != self.counts
-        return counts, (reached | cleared).nonzero()[0]
+    def _progress(self, view: FleetView) -> Int:
+        """The counts i8[2,n] of leading segments reached and cleared: the same array while none changes."""
+        reported = view.reached, view.cleared
+        if all(map(is_, reported, self._view_counts)):
+            return self.counts
+        self._view_counts = reported
+        counts = np.maximum(self.counts, reported)
+        return counts if np.count_nonzero(counts != self.counts) else self.counts
 
-    def _orders(self, view: FleetView, counts: Int, changed: Int) -> Orders:
-        if len(changed):
+    def _orders(self, view: FleetView, counts: Int) -> Orders:
+        if changed := counts is not self.counts:
             self.counts = counts
-            self.graph.update(counts, changed)
+            self.graph.update(counts)
         requested = self.graph.request(counts, view.granted)
-        if requested or len(changed):
+        if requested or changed:
             self._release()
             if len(self._speed):  # whoever may go on now does not wait for the next profile
                 self._speed = np.where(self.graph.released > self._free, np.inf, self._speed)

@@ -32,13 +32,16 @@ def write_entry(archive: zipfile.ZipFile, name: str, content: bytes) -> None:
     archive.writestr(zipfile.ZipInfo(name), content, zipfile.ZIP_DEFLATED, compresslevel=1)
 
 
-def write_chunk(archive: zipfile.ZipFile, name: str, content: bytes) -> None:
-    """Add a file as `write_entry` in a fourth of the time: by ISA-L, whose bytes may differ from those of zlib."""
+def write_chunk(archive: zipfile.ZipFile, name: str, array: NDArray[Any]) -> None:
+    """Add an array as a `.npy` file in a fourth of the time: by ISA-L, whose bytes may differ from those of zlib."""
+    header, rows = BytesIO(), np.ascontiguousarray(array)
+    npy.write_array_header_1_0(header, npy.header_data_from_array_1_0(rows))
     entry = zipfile.ZipInfo(name)
-    entry.compress_type, entry.file_size = zipfile.ZIP_DEFLATED, len(content)
+    entry.compress_type, entry.file_size = zipfile.ZIP_DEFLATED, header.tell() + rows.nbytes
     with archive.open(entry, "w") as stream:
         stream._compressor = isal_zlib.compressobj(2, isal_zlib.DEFLATED, -15)  # type: ignore[attr-defined]
-        stream.write(content)
+        stream.write(header.getvalue())
+        stream.write(rows.view(np.uint8).data if rows.size else b"")
 
 
 def array_bytes(array: NDArray[Any]) -> bytes:

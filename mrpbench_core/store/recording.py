@@ -152,7 +152,7 @@ class RecordingWriter:
     def write(self, chunk: Chunk) -> None:
         """Append rows to channels."""
         for channel, rows in chunk.items():
-            write_chunk(self._zip, f"{channel}/{self._chunks:06d}.npy", array_bytes(rows))
+            write_chunk(self._zip, f"{channel}/{self._chunks:06d}.npy", rows)
         self._chunks += 1
 
     def close(self) -> None:

@@ -4,6 +4,7 @@
 
 #include "check.hpp"
 #include "mrpbench_navigation/pure_pursuit.hpp"
+#include "mrpbench_navigation/routes.hpp"
 
 using namespace mrpbench::navigation;
 
@@ -66,4 +67,17 @@ TEST("from the stopping speed a robot stops in time and no sooner") {
       CHECK(std::abs(speed * period + speed * speed / (2 * acceleration) - distance) < 1e-9);
     }
   }
+}
+
+TEST("a step is beyond a bound exactly where its length as hypot rounds it is") {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> metres(0, 3), yaw(-4, 4), exponent(-18, 0);
+  for (int i = 0; i < 100000; ++i) {
+    const double bound = metres(random), angle = yaw(random);
+    const double far = bound + (i % 3 - 1) * std::pow(10, exponent(random));  // mostly at the bound within rounding
+    const double dx = far * std::cos(angle), dy = far * std::sin(angle), length = std::hypot(dx, dy);
+    CHECK((beyond(dx, dy, bound) < 0) == (length < bound));
+    CHECK((beyond(dx, dy, bound) <= 0) == (length <= bound));
+  }
+  CHECK(beyond(1, 2, INFINITY) < 0);
 }

@@ -1,6 +1,7 @@
 """Says why each robot did not arrive in an execution."""
 
 import math
+from collections import defaultdict
 from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import cached_property
 
@@ -58,7 +59,9 @@ class FailureReasons:
         """Return the reason for each robot that did not arrive: its own, or the robot for which it waits."""
         missing = np.flatnonzero(~self.arrived).tolist()
         direct = {robot: text for robot in range(len(self.names)) if (text := self._direct(robot))}
-        waits = {robot: self._waits_for(robot) for robot in missing if robot not in direct}
+        waiting = [robot for robot in missing if robot not in direct]
+        in_way = self._in_way(waiting)
+        waits = {robot: self._waits_for(robot, in_way[robot]) for robot in waiting}
         return {robot: direct.get(robot) or self._chain(robot, waits, direct) for robot in missing}
 
     def _direct(self, robot: int) -> str:
@@ -120,7 +123,25 @@ class FailureReasons:
     def _under_way(self, robot: int) -> str:
         return f"was under way at {self._place(robot)}, with {self._left[robot]:.1f} m of its path left"
 
-    def _waits_for(self, robot: int) -> list[int]:
+    def _in_way(self, robots: Sequence[int]) -> Mapping[int, list[int]]:
+        """The robots that stand where each of some robots has to drive next, the nearest first."""
+        moves = {robot: ends for robot in robots if (ends := self._next_move(robot)) is not None}
+        ahead, (start, end) = np.array([*moves], np.int64), np.array([*moves.values()]).reshape(-1, 2, 2).swapaxes(0, 1)
+        radius, x = self.problem.radius, self.pose[:, 0]
+        reach, by_x = radius.max(initial=0.0) + radius[ahead], np.argsort(x)
+        low = np.searchsorted(x[by_x], np.minimum(start[:, 0], end[:, 0]) - reach)
+        size = np.searchsorted(x[by_x], np.maximum(start[:, 0], end[:, 0]) + reach, side="right") - low
+        row = np.repeat(np.arange(len(ahead)), size)
+        other = by_x[np.arange(len(row)) + np.repeat(low - np.cumsum(size) + size, size)]
+        gap = point_segment_distance(self.pose[other, :2], start[row], end[row])
+        near = np.flatnonzero(gap < radius[other] + radius[ahead[row]])
+        near = near[np.lexsort((other[near], gap[near]))]
+        found = defaultdict(list)
+        for robot, there in zip(ahead[row[near]].tolist(), other[near].tolist(), strict=True):
+            found[robot].append(there)
+        return found
+
+    def _waits_for(self, robot: int, in_way: Sequence[int]) -> list[int]:
         """The robots that may keep one from going on: in its way, in its door or lift, or due to pass before it."""
         others = [
             holder
@@ -128,15 +149,7 @@ class FailureReasons:
             if other == robot and (robot, name) not in self.granted
             for holder in self.holders.get(name, ())
         ]
-        if (ends := self._next_move(robot)) is not None:
-            radius = self.problem.radius
-            reach = radius.max() + radius[robot]
-            low, high = ends.min(axis=0) - reach, ends.max(axis=0) + reach
-            x, y = self.pose[:, 0], self.pose[:, 1]
-            some = ((x >= low[0]) & (x <= high[0]) & (y >= low[1]) & (y <= high[1])).nonzero()[0]
-            gap = point_segment_distance(self.pose[some, :2], *ends)
-            near = gap < radius[some] + radius[robot]
-            others += some[near][np.argsort(gap[near], kind="stable")].tolist()
+        others += in_way
         awaited = self.dispatcher_waits_for(robot)
         others += self._due_before(robot) if awaited is None else awaited
         return [other for other in dict.fromkeys(others) if other != robot]

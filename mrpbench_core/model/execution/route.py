@@ -78,9 +78,9 @@ class Routes(FlatSequence[Route]):
 def last_moves(routes: Sequence[Route]) -> Int:
     """`Route.last_move` of each of n routes, i8[n], for all at once."""
     flat = Routes.of(routes)
-    first, size, place, level = flat.first[:-1], flat.size, flat.waypoint[:, :2], flat.level
+    first, size, (x, y, _), level = flat.first[:-1], flat.size, flat.waypoint.T, flat.level
     robot = np.repeat(np.arange(len(size)), size)
-    moved = (place[1:] != place[:-1]).any(axis=1) | (level[1:] != level[:-1])
+    moved = (x[1:] != x[:-1]) | (y[1:] != y[:-1]) | (level[1:] != level[:-1])
     at = np.flatnonzero(moved & (robot[1:] == robot[:-1]))
     last: Int = np.zeros(len(size), np.int64)
     last[robot[at]] = at + 1 - first[robot[at]]  # of equal robots the last one counts

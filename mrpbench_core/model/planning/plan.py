@@ -99,9 +99,9 @@ class Paths(FlatSequence[RobotPath]):
     def part(self, begin: Int | Int32, end: Int | Int32) -> "Paths":
         """The segments from `begin` i8[n] until before `end` i8[n] of each path; a path may have fewer."""
         robot, segment = self.robot, self.segment
-        mask = (begin[robot] <= segment) & (segment < end[robot])
-        first = np.searchsorted(robot[mask], np.arange(len(self) + 1))
-        return Paths(first=first, edge=self.edge[mask], enter=self.enter[mask], leave=self.leave[mask])
+        at = ((begin[robot] <= segment) & (segment < end[robot])).nonzero()[0]
+        first = at.searchsorted(self.first)
+        return Paths(first=first, edge=self.edge.take(at), enter=self.enter.take(at), leave=self.leave.take(at))
 
     def later(self, ticks: int) -> "Paths":
         """The paths at other times: all so many ticks later, or earlier if they are negative."""

@@ -54,11 +54,12 @@ class Type2Edges(NamedTuple):
 def moves_of(problem: Problem, plan: Plan) -> Moves:
     """List the moves of a plan whose paths have no faults."""
     paths = Paths.of(plan.paths)
-    is_move = paths.edge >= 0
-    robot, segment, edge = paths.robot[is_move], paths.segment[is_move], paths.edge[is_move].astype(np.int64)
-    first = np.searchsorted(robot, np.arange(len(paths) + 1))
-    ends = problem.roadmap.edges[edge].astype(np.int64).reshape(-1, 2)
-    return Moves(first, robot, segment, edge, ends[:, 0], ends[:, 1], paths.enter[is_move], paths.leave[is_move])
+    at = (paths.edge >= 0).nonzero()[0]  # indices are taken in a fraction of the time of a mask
+    robot, segment, enter, leave = (its.take(at) for its in (paths.robot, paths.segment, paths.enter, paths.leave))
+    edge = paths.edge.take(at).astype(np.int64)
+    first = at.searchsorted(paths.first)
+    tail, head = problem.roadmap.edges.take(edge, axis=0).astype(np.int64).T
+    return Moves(first, robot, segment, edge, tail, head, enter, leave)
 
 
 def type2_edges(problem: Problem, moves: Moves, resources: Type2Edges, chosen: Bool | None = None) -> Type2Edges:

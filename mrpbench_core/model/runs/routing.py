@@ -33,8 +33,8 @@ class Router:
         """The routes of `plan`."""
         paths, roadmap = Paths.of(plan.paths), self.problem.roadmap
         vertices = paths.vertices(roadmap, self.problem.start)
-        waypoint = np.column_stack([roadmap.position[vertices], roadmap.heading[vertices]])
-        level = roadmap.level[vertices]
+        waypoint = np.column_stack([roadmap.position.take(vertices, axis=0), roadmap.heading.take(vertices)])
+        level = roadmap.level.take(vertices)
         first = paths.first + np.arange(len(paths) + 1)
         speed = np.full(len(vertices), np.inf)
         if len(self.speed_limits):

@@ -1,6 +1,7 @@
 // The routes of a fleet as robots drive them, in tables. The navigator `waypoints` fills them.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -59,6 +60,13 @@ struct Routes {
   std::span<const Index> stop, lift;  // C: the next corner at which a path ends, or a robot enters a lift
   bool any_yaw = true;                // no robot has to turn at the end of its path
 };
+
+/// The sign of `std::hypot(dx, dy) - bound`, of a bound that is not negative. The squares are compared, and the root is
+/// taken only where they are about equal.
+inline double beyond(double dx, double dy, double bound) {
+  const double more = dx * dx + dy * dy - bound * bound;
+  return std::abs(more) > 1e-6 ? more : std::hypot(dx, dy) - bound;
+}
 
 /// The remainder of a division that rounds down.
 double modulo(double value, double by);

@@ -19,8 +19,14 @@ double greater(double one, double other) {
   return one > other ? one : other;
 }
 
+/// The length of a step: most legs are parallel to an axis, where it needs no root.
+double norm(Point step) {
+  if (step.x == 0) return std::abs(step.y);
+  return step.y == 0 ? std::abs(step.x) : std::hypot(step.x, step.y);
+}
+
 double apart(Point one, Point other) {
-  return std::hypot(one.x - other.x, one.y - other.y);
+  return norm({one.x - other.x, one.y - other.y});
 }
 
 /// `wanted`, limited to what is within `change` of the measured speed.
@@ -61,18 +67,18 @@ Twist rest(const PursuitOptions& options, const PursuingRobot& robot, const Purs
 }  // namespace
 
 Point carrot(Point first, std::span<const Point> points, Point robot, double distance) {
-  if (!(apart(first, robot) < distance)) return first;
+  if (!(beyond(first.x - robot.x, first.y - robot.y, distance) < 0)) return first;
   Point start = first, along;
   for (const Point& ahead : points) {
     const Point step{ahead.x - start.x, ahead.y - start.y};
     const bool longer = step.x != 0 || step.y != 0;
     if (longer) along = step;
-    if (longer && apart(ahead, robot) >= distance) break;
+    if (longer && beyond(ahead.x - robot.x, ahead.y - robot.y, distance) >= 0) break;
     start = ahead;
   }
-  const double length = std::hypot(along.x, along.y);
-  if (!(length > 0)) return start;
-  along = {along.x / length, along.y / length};
+  const double way = norm(along);
+  if (!(way > 0)) return start;
+  along = {along.x / way, along.y / way};
   // `start` lies inside the circle around the robot; the ray from there along the leg leaves it once.
   const Point offset{robot.x - start.x, robot.y - start.y};
   const double ahead_by = offset.x * along.x + offset.y * along.y;
@@ -82,13 +88,13 @@ Point carrot(Point first, std::span<const Point> points, Point robot, double dis
 }
 
 double path_length(Point first, std::span<const Point> points, double enough) {
-  double length = 0;
+  double way = 0;
   for (const Point& ahead : points) {
-    length += apart(ahead, first);
-    if (length >= enough) break;
+    way += apart(ahead, first);
+    if (way >= enough) break;
     first = ahead;
   }
-  return length;
+  return way;
 }
 
 double stopping_speed(double distance, double acceleration, double period) {
@@ -101,20 +107,23 @@ double wrapped(double angle) {
 
 Twist pursue(const PursuitOptions& options, const PursuingRobot& robot, const Pursuit& seen, bool& turning) {
   const double braking = robot.cruise * options.period + robot.cruise * robot.cruise / (2 * robot.acceleration);
-  const Point place{seen.pose.x, seen.pose.y}, end = seen.points.back();
+  const Point place{seen.pose.x, seen.pose.y};
   Point first = seen.foot;
   std::span<const Point> points = seen.points;
   double left = path_length(first, points, braking);
-  const double away = apart(end, place);
-  const bool resting = left <= at_end && away <= back_to_end;
-  if (!resting && left == 0) {  // away from the end of a path of which nothing is left
-    first = place;
-    points = points.last(1);
-    left = away;
+  bool resting = false;
+  if (left <= at_end) {
+    const double away = apart(seen.points.back(), place);
+    resting = away <= back_to_end;
+    if (!resting && left == 0) {  // away from the end of a path of which nothing is left
+      first = place;
+      points = points.last(1);
+      left = away;
+    }
   }
   const Point aim = carrot(first, points, place, options.lookahead_dist);
   const Point offset{aim.x - place.x, aim.y - place.y};
-  const double distance = std::hypot(offset.x, offset.y);
+  const double distance = norm(offset);
   const double error = distance > 0 ? wrapped(std::atan2(offset.y, offset.x) - seen.pose.yaw) : 0.0;
   const bool turns = must_turn(options, std::abs(error), turning);
   const double stopping = lesser(stopping_speed(left, robot.acceleration, options.period), seen.speed);

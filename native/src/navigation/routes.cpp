@@ -10,19 +10,11 @@ namespace {
 
 constexpr double slack = 1e-6;  // square metres
 
-/// Tell whether a distance may be `bound` within rounding: a comparison of squares, before the root is taken.
-bool may_be_within(double dx, double dy, double bound) {
-  return dx * dx + dy * dy <= bound * bound + slack;
-}
-bool may_be_beyond(double dx, double dy, double bound) {
-  return dx * dx + dy * dy >= bound * bound - slack;
-}
-
 }  // namespace
 
 bool Arrival::holds(double at_x, double at_y) const {
   const double dx = at_x - x, dy = at_y - y;
-  if (may_be_within(dx, dy, tolerance) && std::hypot(dx, dy) <= tolerance) return true;
+  if (beyond(dx, dy, tolerance) <= 0) return true;
   return dx * along_x + dy * along_y >= 0 && std::abs(along_x * dy - along_y * dx) <= lateral_tolerance;
 }
 
@@ -31,8 +23,7 @@ bool Rounding::holds(double at_x, double at_y) const {
 }
 
 bool Clearing::holds(double at_x, double at_y) const {
-  const double dx = at_x - x, dy = at_y - y;
-  return may_be_beyond(dx, dy, distance) && std::hypot(dx, dy) >= distance;
+  return beyond(at_x - x, at_y - y, distance) >= 0;
 }
 
 Point Leg::nearest(double at_x, double at_y) const {

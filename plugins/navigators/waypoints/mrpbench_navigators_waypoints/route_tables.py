@@ -72,11 +72,12 @@ class RouteTables:
         """f8[W] m/s allowed from each waypoint on."""
         begins = np.zeros(len(waypoint), bool)
         begins[self.first] = True
-        moves = np.append(True, (waypoint[1:, :2] != waypoint[:-1, :2]).any(axis=1))[: len(waypoint)]
+        x, y, _ = waypoint.T
+        moves = np.append(True, (x[1:] != x[:-1]) | (y[1:] != y[:-1]))[: len(waypoint)]
         same_level = np.append(True, self.level[1:] == self.level[:-1])[: len(waypoint)]
         is_corner = begins | (moves & same_level)
         row = np.cumsum(is_corner) - 1
-        self.corners: Float = waypoint[is_corner, :2]
+        self.corners: Float = waypoint[:, :2].take(is_corner.nonzero()[0], axis=0)
         """f8[C,2] x, y."""
         self.first_corner: Int = row[self.first]
         """i8[n]: the corners of robot i are the rows from `first_corner[i]` on."""
@@ -129,7 +130,7 @@ class RouteTables:
         self.legs: Float = np.column_stack([corners, step, np.maximum((step * step).sum(axis=1), 1e-300)])
         """f8[C,5] x, y, step and squared length of the leg from each corner; a robot's last one has no length."""
         after = np.roll(np.arange(count), -1)
-        self.rounding: Float = np.column_stack([corners[after], heading + heading[after]])
+        self.rounding: Float = np.column_stack([corners.take(after, axis=0), heading + heading.take(after, axis=0)])
         """f8[C,4] the corner at the end of each leg and the direction in which a robot rounds it, NaN = it does not."""
         self.clearing: Float = np.column_stack([corners, clearance - SLACK])
         """f8[C,3] each corner and the distance at which it is cleared."""
@@ -161,7 +162,7 @@ class RouteTables:
         arrival[:, 2] = rules.waypoint_tolerance
         arrival[goal, 2] = rules.xy_goal_tolerance
         into = np.concatenate([np.full((1, 2), np.nan), heading[:-1]])[: len(heading)]  # NaN at each first corner
-        arrival[:, 3:5] = into[row]
+        arrival[:, 3:5] = into.take(row, axis=0)
         arrival[:, 5] = arrival[:, 3] * 0 + rules.passing_tolerance
         arrival[goal, 3:] = np.nan
         return arrival
