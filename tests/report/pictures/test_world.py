@@ -10,7 +10,7 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.worlds.occupancy import Occupancy
-from mrpbench_core.model.worlds.world import Door, Lane, Level, Obstacle, Vertex, World
+from mrpbench_core.model.worlds.world import Area, Door, Lane, Level, Obstacle, Vertex, World
 from mrpbench_core.report.pictures.paths import plot_paths
 from mrpbench_core.report.pictures.style import PIXELS, own_style
 from mrpbench_core.report.pictures.world import plot_world, world_figure
@@ -70,6 +70,14 @@ def test_title_and_legend_of_a_narrow_world_are_on_the_sheet_and_do_not_overlap(
     for box in (title, legend):
         assert figure.bbox.contains(box.x0, box.y0)
         assert figure.bbox.contains(box.x1, box.y1)
+
+
+def test_holes_are_hatched():
+    level = Level(name="", walls=[[0, 0, 9, 0]], holes=(Area(polygon=[[1, 1], [3, 1], [3, 3]]),))
+    with own_style():
+        _, axes = world_figure(World(name="holed", levels=(level,)))
+    hatched = [path.vertices for shape in axes.collections if shape.get_hatch() for path in shape.get_paths()]
+    np.testing.assert_array_equal(np.unique(np.concatenate(hatched), axis=0), [[1, 1], [3, 1], [3, 3]])
 
 
 @pytest.mark.parametrize("part", ["routes", "truth"])
