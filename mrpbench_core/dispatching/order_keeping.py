@@ -2,7 +2,6 @@
 
 import copy
 from collections.abc import Mapping
-from operator import is_
 from typing import Self
 
 import attrs
@@ -141,11 +140,10 @@ class OrderKeepingSession(DispatcherSession):
 
     def _progress(self, view: FleetView) -> Int:
         """The counts i8[2,n] of leading segments reached and cleared: the same array while none changes."""
-        reported = view.reached, view.cleared
-        if all(map(is_, reported, self._view_counts)):
+        if view.reached is self._view_counts[0] and view.cleared is self._view_counts[1]:
             return self.counts
-        self._view_counts = reported
-        counts = np.maximum(self.counts, reported)
+        self._view_counts = view.reached, view.cleared
+        counts = np.maximum(self.counts, self._view_counts)
         return counts if np.count_nonzero(counts != self.counts) else self.counts
 
     def _orders(self, view: FleetView, counts: Int) -> Orders:

@@ -11,8 +11,11 @@ HERE = Path(__file__).parent
 ROOT = HERE.parents[1]
 FOLLOWED_ELSEWHERE = {"planner-native", "planner-external"}
 """Pages that need a compiler or other programs; tests in `tests/cli` follow them."""
-SLOW = {"charging", "lifelong", "my-map", "people", "policies", "publish", "real-fleet", "replays"}
-"""Pages that take half a minute or more: `make pages` follows them, `make test` all others."""
+SLOW = {
+    "charging", "critic", "league-of-robot-runners", "lifelong", "my-map", "other-simulators", "people", "policies",
+    "publish", "real-fleet", "replays", "slam",
+}  # fmt: skip
+"""Long pages of what comes after the first hour: `make pages` follows them, `make test` all others."""
 PAGES = [
     page
     for part in ("tutorial", "how-to", "reference", "explanation")

@@ -136,10 +136,10 @@ class FailureReasons:
         gap = point_segment_distance(self.pose[other, :2], start[row], end[row])
         near = np.flatnonzero(gap < radius[other] + radius[ahead[row]])
         near = near[np.lexsort((other[near], gap[near]))]
-        found = defaultdict(list)
+        standing: dict[int, list[int]] = defaultdict(list)
         for robot, there in zip(ahead[row[near]].tolist(), other[near].tolist(), strict=True):
-            found[robot].append(there)
-        return found
+            standing[robot].append(there)
+        return standing
 
     def _waits_for(self, robot: int, in_way: Sequence[int]) -> list[int]:
         """The robots that may keep one from going on: in its way, in its door or lift, or due to pass before it."""
