@@ -172,11 +172,15 @@ def _of_executions(config: RunConfig) -> Iterator[tuple[str, str]]:
             yield f"{block}.{name}", f"{IDLE}{reason}"
     if not any(map(_has_lidar, config.fleet)):
         yield from dict.fromkeys(("noise.lidar", "noise.lidar_dropout"), f"{IDLE}no robot has a lidar").items()
-    if _is(config.dispatcher, "adg") and _is(config.navigator, "waypoints"):
-        reason = (
-            "does not fit `dispatcher: adg`, which lets others pass where a robot beside its waypoint is in the way"
-        )
-        yield "navigator.planner_tolerance", reason
+    if _is(config.dispatcher, "adg"):
+        unfit = "does not fit `dispatcher: adg`, which "
+        if config.plan_filter != "none":
+            yield "plan_filter", f"{unfit}counts on the cells of the plan, and robots leave them"
+        if _is(config.navigator, "waypoints"):
+            yield (
+                "navigator.planner_tolerance",
+                f"{unfit}lets others pass where a robot beside its waypoint is in the way",
+            )
 
 
 def _named(root: Item) -> Iterator[str]:

@@ -243,9 +243,7 @@ class RunConfig:
     )
     planner: Planner = block(help="turns the problem into one timed path per robot")
     plan_filter: PlanFilter = option(
-        "none",
-        help="`mrp_bench_stairs`: robots cut the corners of staircases, as in the original MRP-Bench; they then leave the cells "
-        "on which dispatchers such as `adg` count, and may wait for each other for ever",
+        "none", help="`mrp_bench_stairs`: robots cut the corners of staircases, as in the original MRP-Bench"
     )
     execution: Literal["simulated", "schedule_only"] = option(
         "simulated",

@@ -77,6 +77,10 @@ def test_token_passing_is_refused_where_robots_without_a_task_do_not_go_home(pla
             "navigator.planner_tolerance: does not fit `dispatcher: adg`",
         ),
         (
+            {"plan_filter": "mrp_bench_stairs"},
+            "plan_filter: does not fit `dispatcher: adg`, which counts on the cells of the plan",
+        ),
+        (
             {"navigator": {"plugin": "waypoints", "max_recoveries": 0, "recoveries": ["wait"]}},
             "navigator.recoveries: has no effect: max_recoveries is 0",
         ),
@@ -121,6 +125,7 @@ def test_an_option_without_effect_is_named_with_the_reason(changes, note):
         {"noise": {"lidar": 0.1}, "matrix": {"simulator": ["none", "kinematic"]}},
         {"export": ["rosbag2"], "assigner": "identity", "replanning": {"latency": 1, "period": 5}},
         {"dispatcher": "all_at_once", "navigator": {"plugin": "waypoints", "planner_tolerance": 0.5}},
+        {"dispatcher": "all_at_once", "plan_filter": "mrp_bench_stairs"},
         {"roadmap": "graph", "fleet": [{"robot": "turtlebot3_burger", "graph": 0}]},
     ],
 )
