@@ -220,7 +220,7 @@ def _overlapping(place: Float, level: Int16, radius: Float) -> tuple[Int, Int, I
     order = np.argsort(place[..., 0], axis=1, kind="stable")
     x, y = (np.take_along_axis(place[..., axis], order, axis=1) for axis in (0, 1))
     level, radius = np.take_along_axis(level, order, axis=1), radius[order]
-    overlaps = []
+    overlaps = [tuple(np.zeros((3, 0), np.int64))]
     for apart in range(1, place.shape[1]):
         dx = x[:, apart:] - x[:, :-apart]
         if dx.min(initial=np.inf) >= 2 * radius.max() - DEPTH:
@@ -228,9 +228,6 @@ def _overlapping(place: Float, level: Int16, radius: Float) -> tuple[Int, Int, I
         gap = np.hypot(dx, y[:, apart:] - y[:, :-apart]) - radius[:, apart:] - radius[:, :-apart]
         sample, left = np.nonzero((gap < -DEPTH) & (level[:, apart:] == level[:, :-apart]))
         overlaps.append((sample, order[sample, left], order[sample, left + apart]))
-    if not overlaps:
-        nothing: Int = np.zeros(0, np.int64)
-        return nothing, nothing, nothing
     sample, one, other = (np.concatenate(column) for column in zip(*overlaps, strict=True))
     return sample, one, other
 
@@ -255,4 +252,4 @@ def inscribed_radius(robot: RobotModel) -> float:
     cross = corners[:, 0] * after[:, 1] - corners[:, 1] * after[:, 0]
     if not ((cross >= 0).all() or (cross <= 0).all()):
         return 0.0
-    return float(min(point_segment_distance(np.zeros((1, 2)), a, b)[0] for a, b in zip(corners, after, strict=True)))
+    return float(point_segment_distance(np.zeros((1, 2)), corners, after).min())

@@ -96,8 +96,10 @@ class Drawing:
         positions, levels, names = [], [], []
         before: list[int] = []
         for places, size in self.choices:
-            open_to = np.flatnonzero(~np.isin(places.vertex, before)).tolist()
-            chosen = [open_to.pop(int(share * len(open_to))) for share in islice(shares, size)]
+            open_to, chosen = np.flatnonzero(~np.isin(places.vertex, before)), []
+            for share in islice(shares, size):
+                chosen.append(int(open_to[int(share * len(open_to))]))
+                open_to = open_to[open_to != chosen[-1]]
             before = places.vertex[chosen].tolist()
             positions += [(*places.position[place], np.nan) for place in chosen]
             levels += places.level[chosen].tolist()
