@@ -26,6 +26,8 @@ DEPTH = 10
 """Messages that are kept for a reader on the other topics, as ROS 2 does by default."""
 POLL_S, PAUSE = 0.01, 2.0
 """Seconds between looks at what has come while there is time, at least, and as a multiple of what a look takes."""
+LEAST_S = 0.02
+"""Seconds for which messages are taken in, or sent, where there is no time left."""
 
 
 class Wire:
@@ -46,6 +48,8 @@ class Wire:
         self.messages = messages
         self._takers: list[tuple[Any, Callable[[Any], None]]] = []
         """Each reader, and what is called with its messages."""
+        self._next = 0
+        """The index of the reader that is asked next."""
         self._writers: dict[str, Any] = {}
         self._topics: dict[str, Any] = {}
         self.sent = self.received = 0
@@ -80,18 +84,28 @@ class Wire:
         self._takers.append((DataReader(subscriber, self._topic(topic), qos=_qos(latched)), take))
 
     def serve(self, due: float) -> None:
-        """Take in what has come, and what comes until it is time: `due` as of `time.monotonic`."""
+        """Take in what has come, and what comes until it is time: `due` as of `time.monotonic`.
+
+        What has not been taken in by then stays for the next call, which goes on with the next topic. A call that is
+        late already takes in messages for a short while.
+        """
+        began = time.monotonic()
+        until = max(due, began + LEAST_S)
         while True:
-            began = time.monotonic()
-            for reader, take in self._takers.copy():
+            for _ in range(len(self._takers)):
+                reader, take = self._takers[self._next % len(self._takers)]
+                self._next += 1
                 for message in reader.take(N=DEPTH):
                     if message.sample_info.valid_data:  # not that a sender has left
                         self.received += 1
                         take(message)
+                if time.monotonic() >= until:
+                    return
             now = time.monotonic()
             if now >= due:
                 return
             time.sleep(min(due - now, max(POLL_S, PAUSE * (now - began))))
+            began = time.monotonic()
 
     def close(self) -> None:
         """Leave the domain."""

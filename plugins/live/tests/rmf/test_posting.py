@@ -6,6 +6,8 @@ import pytest
 from mrpbench_live.rmf.traffic.posting import blockers_of, waypoints_of
 
 from mrpbench_core.api import DispatchError, Feature, Plan, Problem, Roadmap, RobotPath
+from mrpbench_core.model.planning.occupations import occupations_of, resource_edges
+from mrpbench_core.model.planning.type2_edges import moves_of, type2_edges
 
 SQUARE = Roadmap(  # 0 - 1 - 2 - 3 on a line, and 4 above 1, 5 above 2
     position=[(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 0.0), (1.0, 1.0), (2.0, 1.0)],
@@ -82,3 +84,43 @@ def test_a_rotation_is_refused():
     nothing = np.zeros(4, np.int64)
     with pytest.raises(DispatchError, match="robots 0, 1, 2, 3 rotate"):
         blockers_of(asked, plan, waypoints_of(asked, plan, nothing), nothing, nothing)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_blockers_are_those_of_the_order_of_the_plan_edge_by_edge(seed):
+    draws = np.random.default_rng(seed)
+    robots, radius = 4, draws.uniform(0.2, 0.8)
+    asked = problem(*draws.choice(6, robots, replace=False).tolist(), radius=radius)
+    plan = Plan(paths=[path(*steps) for steps in zip(*wander(asked.start.tolist(), draws), strict=True)])
+    begun = draws.integers(0, 3, robots)
+    waypoints = waypoints_of(asked, plan, begun)
+    moves = moves_of(asked, plan)
+    order = type2_edges(asked, moves, resource_edges(asked, occupations_of(asked, moves)))
+    place, expected = SQUARE.position, {}
+    for before, after, completed in zip(*(column.tolist() for column in order), strict=True):
+        robot, other, segment = moves.robot[after], moves.robot[before], moves.segment[after]
+        ways = waypoints[other]
+        enough = [
+            at
+            for at, (over, vertex) in enumerate(zip(ways.segments, ways.vertex, strict=True))
+            if over > moves.segment[before]
+            and (completed or np.linalg.norm(place[vertex] - place[moves.tail[before]]) >= 2 * radius)
+        ]
+        required = enough[0] if enough else len(ways.vertex) - 1
+        if segment >= begun[robot] and required:
+            others = expected.setdefault((robot, waypoints[robot].last(segment)), {})
+            others[other] = max(others.get(other, 0), required)
+    assert blockers_of(asked, plan, waypoints, begun, NOTHING.repeat(2)) == expected
+
+
+def wander(at, draws):
+    """Eight steps of robots, each an edge to a vertex that is free before and after it, or None."""
+    for _ in range(8):
+        taken, step = set(at), []
+        for robot, here in enumerate(at):
+            free = [head for tail, head in SQUARE.edges.tolist() if tail == here and head not in taken]
+            if free and draws.random() < 0.7:
+                at = [*at[:robot], int(draws.choice(free)), *at[robot + 1 :]]
+                taken.add(at[robot])
+            step.append((here, at[robot]) if at[robot] != here else None)
+        yield step

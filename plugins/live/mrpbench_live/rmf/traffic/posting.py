@@ -1,7 +1,7 @@
 """Plans as messages: waypoints for the segments of paths, blockers for the order of a plan."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, Self
 
 import attrs
 import numpy as np
@@ -75,27 +75,64 @@ def blockers_of(
     if cycle := rotations(problem, moves, order, 0.0):
         robots = sorted({int(moves.robot[move]) for move in cycle[0]})
         raise DispatchError(f"robots {', '.join(map(str, robots))} rotate, which outside robots cannot do in step")
+    before, after, completed = order
+    robot, segment, other = moves.robot[after], moves.segment[after], moves.robot[before]
+    open_to = segment >= np.maximum(reached, released)[robot]
+    robot, segment, other, before = (it[open_to] for it in (robot, segment, other, before))
+    table = _Table.of(waypoints)
+    required = table.first_after(other, moves.segment[before] + 1)
+    _drive_clear(problem, table, required, np.flatnonzero(~completed[open_to]), moves.tail[before], robot, other)
+    waypoint = np.maximum(table.first_after(robot, segment + 1) - 1, 0)
+    rows = np.stack([robot, waypoint, other, required], axis=1)[required > 0]
     found: dict[tuple[int, int], dict[int, int]] = {}
-    for before, after, completed in zip(*(column.tolist() for column in order), strict=True):
-        robot, segment = int(moves.robot[after]), int(moves.segment[after])
-        other, passed = int(moves.robot[before]), int(moves.segment[before]) + 1
-        if segment < max(reached[robot], released[robot]):
-            continue
-        required = int(np.searchsorted(waypoints[other].segments, passed))
-        if not completed:
-            required = _clear(problem, waypoints[other], required, int(moves.tail[before]), robot, other)
-        if required > 0:
-            blockers = found.setdefault((robot, waypoints[robot].last(segment)), {})
-            blockers[other] = max(blockers.get(other, 0), required)
+    for departs, at, waits_for, until in rows[np.lexsort(rows.T[::-1])].tolist():  # the greatest is the last
+        found.setdefault((departs, at), {})[waits_for] = until
     return found
 
 
-def _clear(problem: Problem, way: Waypoints, first: int, vertex: int, robot: int, other: int) -> int:
-    """The first waypoint of `other`, from one on, at which `robot` fits at a vertex."""
-    shift = problem.roadmap.position[way.vertex[first:]] - problem.roadmap.position[vertex]
-    clear = np.hypot(shift[:, 0], shift[:, 1]) >= problem.radius[robot] + problem.radius[other] - SLACK
-    clear |= problem.roadmap.level[way.vertex[first:]] != problem.roadmap.level[vertex]
-    return first + (int(clear.argmax()) if clear.any() else len(clear) - 1)
+@attrs.frozen(eq=False)
+class _Table:
+    """The waypoints of all robots, one robot after another."""
+
+    first: Int
+    """i8[n+1]: those of robot i are the rows from `first[i]` to `first[i+1]`."""
+    key: Int
+    """i8[W], ascending: the robot times `stride`, and the segments that are over at the waypoint."""
+    vertex: Int
+    """i8[W]."""
+    stride: int
+
+    @classmethod
+    def of(cls, waypoints: Sequence[Waypoints]) -> Self:
+        """Join the waypoints of robots."""
+        segments = np.concatenate([it.segments for it in waypoints])
+        stride, sizes = int(segments.max()) + 2, [len(it.segments) for it in waypoints]
+        return cls(
+            first=np.concatenate([[0], np.cumsum(sizes)]),
+            key=np.repeat(np.arange(len(waypoints)), sizes) * stride + segments,
+            vertex=np.concatenate([it.vertex for it in waypoints]),
+            stride=stride,
+        )
+
+    def first_after(self, robot: Int, segments: Int) -> Int:
+        """The first waypoint i8[k] of each robot at which so many segments are over; their number if there is none."""
+        row: Int = np.searchsorted(self.key, robot * self.stride + np.minimum(segments, self.stride - 1))
+        return row - self.first[robot]
+
+
+def _drive_clear(
+    problem: Problem, table: _Table, required: Int, rows: Int, vertex: Int, robot: Int, other: Int
+) -> None:
+    """Raise required waypoints of some rows until `robot` fits at `vertex` while `other` is there, or to the last."""
+    roadmap, radius = problem.roadmap, problem.radius
+    last = table.first[other + 1] - table.first[other] - 1
+    while len(rows := rows[required[rows] <= last[rows]]):
+        there, here = table.vertex[table.first[other[rows]] + required[rows]], vertex[rows]
+        shift = roadmap.position[there] - roadmap.position[here]
+        fits = np.hypot(shift[:, 0], shift[:, 1]) >= radius[robot[rows]] + radius[other[rows]] - SLACK
+        rows = rows[~(fits | (roadmap.level[there] != roadmap.level[here]))]
+        required[rows] += 1
+    np.minimum(required, last, out=required)
 
 
 def message_of(

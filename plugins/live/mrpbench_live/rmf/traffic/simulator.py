@@ -77,7 +77,7 @@ class _Robots(OutsideRobots):
         self._traffic = traffic
 
     def serve(self, due: float) -> None:
-        self._traffic.wire.serve(due)
+        self._traffic.serve(due)
 
     def reports(self) -> Iterator[tuple[int, float, float, float, float]]:
         for robot, it in enumerate(self._traffic.participants.robots):

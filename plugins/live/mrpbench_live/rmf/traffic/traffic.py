@@ -1,6 +1,8 @@
 """What the components of one run share: the robots, where they are to go, and the plans that they were sent."""
 
-from collections.abc import Sequence
+import time
+from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,7 +13,7 @@ from mrpbench_live.rmf.messages import CODE_TEMPORARILY_UNREACHABLE, Messages, p
 from mrpbench_live.rmf.traffic.destinations import RefusedError, Wish, wish_of
 from mrpbench_live.rmf.traffic.participants import Participants
 from mrpbench_live.rmf.traffic.posting import Posted, Waypoints, blockers_of, message_of, waypoints_of
-from mrpbench_live.rmf.wire import Wire
+from mrpbench_live.rmf.wire import LEAST_S, Wire
 
 PACKAGE = "rmf_prototype_msgs"
 Composed = tuple[list[Waypoints], dict[tuple[int, int], dict[int, int]]]
@@ -40,6 +42,8 @@ class Traffic:
         """Why some robots need another plan."""
         self.posted: dict[int, Posted] = {}
         """The plan of each robot."""
+        self._unsent: dict[int, Callable[[], Any]] = {}
+        """Makes the message of each plan that has not been sent yet."""
         self._position: Float = np.empty((0, 2))
         """f8[v,2] of the roadmap."""
         self._versions: dict[bytes, int] = {}
@@ -130,7 +134,7 @@ class Traffic:
         return waypoints, blockers_of(problem, plan, waypoints, reached, released)
 
     def post(self, problem: Problem, composed: Composed) -> None:
-        """Send a plan to all robots that it concerns: those with destinations, and those that make way."""
+        """Send a plan, in `serve`, to all robots that it concerns: those with destinations, and those that make way."""
         waypoints, blockers = composed
         self._sessions += 1
         self._position = problem.roadmap.position
@@ -145,11 +149,24 @@ class Traffic:
         for (robot, waypoint), others in blockers.items():
             by_robot.setdefault(robot, {})[waypoint] = others
         now = stamp(self._messages)
-        for robot, posted in self.posted.items():
-            message = message_of(
-                self._messages, problem, posted, by_robot.get(robot, {}), self.posted, self._names, now
+        self._unsent = {
+            robot: partial(
+                message_of, self._messages, problem, posted, by_robot.get(robot, {}), self.posted, self._names, now
             )
-            self.wire.publish(f"{self._names[robot]}/plan", message)
+            for robot, posted in self.posted.items()
+        }
+
+    def serve(self, due: float) -> None:
+        """Send plans in half of the time that is left, and take in messages until it is `due` as of `time.monotonic`.
+
+        Plans of large fleets so take several control periods, in which robots follow the plans that they have.
+        """
+        now = time.monotonic()
+        until = now + max(LEAST_S, (due - now) / 2)
+        while self._unsent and time.monotonic() < until:
+            robot = next(iter(self._unsent))
+            self.wire.publish(f"{self._names[robot]}/plan", self._unsent.pop(robot)())
+        self.wire.serve(due)
 
     def places(self, robot: int) -> Float:
         """Return the places f8[k,2] (metres) of the waypoints that a robot was sent."""
@@ -159,8 +176,10 @@ class Traffic:
         return found
 
     def release(self, released: Int32) -> None:
-        """Tell robots how far they may drive: `released` i4[n] leading segments."""
+        """Tell robots that have their plans how far they may drive: `released` i4[n] leading segments."""
         for robot, posted in self.posted.items():
+            if robot in self._unsent:
+                continue
             waypoint = posted.waypoints.last(int(released[robot]))
             if waypoint != self._released.get(robot):
                 self._released[robot] = waypoint
