@@ -14,7 +14,6 @@ import os
 import re
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -51,7 +50,6 @@ def tested(name: str, asked: str, tests: str) -> Iterator[Figure]:
         sys.executable,
         "-m",
         "pytest",
-        "-q",
         "--timeout",
         "1800",
         "-p",
@@ -71,8 +69,7 @@ def tested(name: str, asked: str, tests: str) -> Iterator[Figure]:
 def script(*words: str) -> "subprocess.Popen[str]":
     """Start another benchmark."""
     command = [sys.executable, str(ROOT / "benchmarks" / words[0]), *words[1:]]
-    with tempfile.TemporaryFile() as log:
-        return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True)
+    return subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
 
 
 def scenario(seconds: str, *more: str) -> tuple[int, int, float]:
