@@ -99,7 +99,7 @@ sanitize: install ## run native tests and soaks under AddressSanitizer and Undef
 	$(BIN)/ctest --test-dir $(SANITIZED)/cpp --output-on-failure
 	test -x $(SANITIZED)/bin/python || $(PYTHON) -m venv $(SANITIZED)
 	SKBUILD_BUILD_DIR=$(CURDIR)/$(SANITIZED)/native SKBUILD_CMAKE_DEFINE=SANITIZE=ON $(SANITIZED)/bin/python -m pip install --quiet --disable-pip-version-check -r requirements.txt
-	$(CHECKED) -m pytest -p no:cacheprovider native plugins/planners/mapf plugins/simulators/planar plugins/controllers/dwb plugins/localizers/amcl plugins/localizers/slam
+	$(CHECKED) -m pytest -p no:cacheprovider native plugins/planners/mapf plugins/simulators/planar plugins/controllers/dwb plugins/controllers/pure_pursuit plugins/navigators/waypoints plugins/localizers/amcl plugins/localizers/slam
 	$(CHECKED) plugins/planners/mapf/tests/soak_planners.py 2000 2
 	$(CHECKED) plugins/planners/mapf/tests/soak_assigning.py 1000 2
 
