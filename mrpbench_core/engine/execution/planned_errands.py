@@ -1,4 +1,4 @@
-"""The errands to which the paths of robots lead, from when a plan is asked for until the next one is in force."""
+"""The errands to which the paths of robots lead, from when a plan is asked for until the next one is executed."""
 
 from collections.abc import Callable, Sequence
 
@@ -9,16 +9,16 @@ from mrpbench_core.model.common.arrays import Int
 
 
 class PlannedErrands:
-    """Keeps what is ahead of each robot in the plan in force."""
+    """Keeps what is ahead of each robot in the current plan."""
 
     def __init__(self, robots: int) -> None:
         self.in_force: list[Errands] = [()] * robots
         """What the path of each robot leads to, from now on."""
         self._asked: Sequence[Errands] = self.in_force
         self._planned: list[Errands] = [()] * robots
-        """What robots had to do when the plan in force was asked for, but for what is done since then."""
+        """What robots had to do when the current plan was asked for, but for what is done since then."""
         self.gone: Int = np.zeros(robots, np.int64)
-        """i8[n]: how many errands of the plan in force are not ahead any more."""
+        """i8[n]: how many errands of the current plan are not ahead any more."""
 
     def ask(self, wanted: Sequence[Errands]) -> None:
         """Note what robots have to do when a plan is asked for."""
@@ -48,7 +48,7 @@ class PlannedErrands:
         self._planned[robot] = ()
 
     def others(self, wanted: Sequence[Errands]) -> list[int]:
-        """Return the robots that had something else to do when the plan in force was asked for.
+        """Return the robots that had something else to do when the current plan was asked for.
 
         What is `wanted` may begin with what was planned, and go on.
         """

@@ -274,7 +274,7 @@ class WalkingSession(CrowdSession):
         return rotation
 
     def _starts(self, drawn: np.random.Generator, view: CrowdView) -> Float:
-        """Given places first, then those near which activities begin, or random ones; nobody overlaps a body.
+        """Given places first, then those near which activities begin, or random ones; no person overlaps a body.
 
         Raises:
             InputError: a given place is not free, or there is no room.

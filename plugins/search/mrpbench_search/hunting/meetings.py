@@ -12,7 +12,7 @@ def meetings(space: Space, case: Case) -> float:
     """Return the sum over pairs of robots of exp(-gap): the least time between them at a vertex that both pass.
 
     The gap is in durations of an edge. A pair that shares no vertex adds 0, and so do all pairs where tasks come over
-    time, as nobody knows which robot does them.
+    time, as it is not known which robot does them.
     """
     if case.stream is not None:
         return 0.0

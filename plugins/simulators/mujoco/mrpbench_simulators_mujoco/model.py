@@ -1,4 +1,4 @@
-"""Builds the model of a scene.
+"""Builds the MuJoCo model of a scene.
 
 Contacts are decided by bits: what stands alone touches robots only, robots touch everything, wheels the floor. Robots'
 bodies have no friction; wheels have the Coulomb friction of rubber on a floor. Contacts are as stiff as the physics
