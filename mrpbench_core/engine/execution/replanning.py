@@ -151,10 +151,10 @@ class Replanner:
         cut: Int32 = np.zeros(len(prefix), np.int32)
         if self._cuts:
             cut = driven(plan, view.reached, view.cleared)
-        in_force = attrs.evolve(problem, commitments=prefix)
+        current = attrs.evolve(problem, commitments=prefix)
         problem = without(problem, prefix, cut)
         if self._reads_remaining:
-            problem = attrs.evolve(problem, remaining=remaining(plan, released, in_force))
+            problem = attrs.evolve(problem, remaining=remaining(plan, released, current))
         if self._settings.window is not None:
             horizon = max(ends_of(problem)) + math.ceil(self._settings.window / tick - 1e-9)
             problem = attrs.evolve(problem, horizon=horizon)

@@ -181,14 +181,14 @@ class TaskManager:
             job = self._board.current(robot)
             if job is None:
                 continue
-            if arrived[robot] and self._planned.in_force[robot] == ((job.task.index, job.errand),):
+            if arrived[robot] and self._planned.ahead[robot] == ((job.task.index, job.errand),):
                 self._rest(now, robot, job)
                 if robot in self._missed:
                     self._missed.remove(robot)
                     self._board.changed.add(robot)
             else:
                 self._board.leave(robot)
-                if arrived[robot] and len(self._planned.in_force[robot]) > 1:
+                if arrived[robot] and len(self._planned.ahead[robot]) > 1:
                     self._missed.add(robot)
                     self._board.changed.add(robot)
                     self._planned.drop(robot)
@@ -236,7 +236,7 @@ class TaskManager:
         new = [robot for robot in other if wanted[robot]]
         if new:
             return f"robot {new[0]} has another errand"
-        makes_room = any(ours and not path for ours, path in zip(wanted, self._planned.in_force, strict=True))
+        makes_room = any(ours and not path for ours, path in zip(wanted, self._planned.ahead, strict=True))
         return "a robot that made room may go on" if makes_room else None
 
     def destinations(self, now: float, held: Bool, restricted: Problem) -> Destinations:
