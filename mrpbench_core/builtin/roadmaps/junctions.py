@@ -9,7 +9,8 @@ import numpy as np
 
 from mrpbench_core.checking.components import components
 from mrpbench_core.model.common.arrays import Float, Int
-from mrpbench_core.model.common.geometry import overlapping, point_segment_distance, side
+from mrpbench_core.model.common.geometry import point_segment_distance, side
+from mrpbench_core.model.common.intervals import overlapping
 
 ROUNDS = 20
 """Largest number of passes. A cut bends lanes by up to the tolerance, which may create new junctions; in practice two

@@ -4,7 +4,8 @@ import numpy as np
 
 from mrpbench_core.builtin.simulators.nearby import Nearby
 from mrpbench_core.model.common.arrays import Bool, Float, Int
-from mrpbench_core.model.common.geometry import overlapping, point_segment_distance
+from mrpbench_core.model.common.geometry import point_segment_distance
+from mrpbench_core.model.common.intervals import overlapping
 
 TOLERANCE = 1e-4
 """metres by which discs may overlap walls or each other."""

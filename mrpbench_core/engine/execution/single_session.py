@@ -10,7 +10,7 @@ from mrpbench_core.engine.execution.resources import PlannedResources
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.scheduled_fleet import ScheduledFleet
 from mrpbench_core.model.common.arrays import Bool, Float, Int16, Int32, frozen_array
-from mrpbench_core.model.common.geometry import overlapping
+from mrpbench_core.model.common.intervals import overlapping
 from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.orders import BatchOrders, FleetView, Orders
 from mrpbench_core.model.execution.state import State

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.common.arrays import Bool, Float
 
 
 def point_segment_distance(points: Float, start: Float, end: Float) -> Float:
@@ -40,15 +40,6 @@ def inside(outline: Float, points: Float) -> Bool:
     left_of = np.where(rise > 0, dx * rise < dy * along, dx * rise > dy * along)
     odd: Bool = (straddles & left_of).sum(axis=-1) % 2 == 1
     return odd
-
-
-def overlapping(low: Float, high: Float) -> tuple[Int, Int]:
-    """Return the pairs i8[k] of closed intervals f8[n] that overlap, each once, that with the lower end first."""
-    order = np.argsort(low, kind="stable")
-    count = np.searchsorted(low[order], high[order], side="right") - np.arange(1, len(order) + 1)
-    first = np.repeat(np.arange(len(order)), count)
-    second = first + np.arange(1, len(first) + 1) - np.repeat(np.cumsum(count) - count, count)
-    return order[first], order[second]
 
 
 def side(start: Float, end: Float, point: Float) -> Float:

@@ -27,7 +27,8 @@ from typing import NamedTuple
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Float, Int, Int32
-from mrpbench_core.model.common.geometry import overlapping, segment_distance
+from mrpbench_core.model.common.geometry import segment_distance
+from mrpbench_core.model.common.intervals import overlapping
 from mrpbench_core.model.planning.roadmap import Roadmap
 
 TOLERANCE = 1e-9
