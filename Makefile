@@ -58,8 +58,8 @@ types: install
 layers: install
 	$(BIN)/lint-imports
 
-cpp: install ## run the C++ tests, without Python
-	$(BIN)/cmake -S native -B build/native -G Ninja -DCMAKE_MAKE_PROGRAM=$(CURDIR)/$(BIN)/ninja -DCMAKE_BUILD_TYPE=Release
+cpp: install ## run the C++ tests, without Python, of the libraries that `make install` has built
+	$(BIN)/cmake -S native -B build/native -G Ninja -DCMAKE_MAKE_PROGRAM=$(CURDIR)/$(BIN)/ninja -DBUILT="$(abspath $(wildcard native/build/cp3*))"
 	$(BIN)/cmake --build build/native
 	$(BIN)/ctest --test-dir build/native --output-on-failure
 
