@@ -311,10 +311,7 @@ class RunConfig:
 
     @property
     def granted_localizer(self) -> str | None:
-        """The name of the localizer that needs `grant_truth`, or None.
-
-        The localizer `ground_truth` of the core does not need it, because its name says what it is given.
-        """
+        """The name of the localizer that needs `grant_truth`, or None: `ground_truth` is named for what it gets."""
         localizer = self.localizer
         if localizer is None or not localizer.needs_truth or is_of(type(localizer), GROUND_TRUTH):
             return None

@@ -28,40 +28,19 @@ def unpack(parcel: Mapping[str, Any], *, verify: bool = True) -> RunConfig:
     return structure(parcel["config"], Path(parcel["folder"]), parcel["sources"], verify=verify)
 
 
-class Unpacking:
-    """Unpacks parcels that have most settings in common, which are those of the first one."""
-
-    def __init__(self, first: Mapping[str, Any]) -> None:
-        """Unpack the first parcel.
-
-        Raises:
-            InputErrors: see `unpack`.
-        """
-        self._origin = first["folder"], first["sources"]
-        self._plain = {key: plain_bytes(value) for key, value in first["config"].items()}
-        self._files = _located(Path(first["folder"]), first["config"])
-        self._structure = Structure(Path(first["folder"]), first["sources"])
-        self.config = unpack(first)
-
-    def __call__(self, parcel: Mapping[str, Any]) -> RunConfig:
-        """Return the configuration of a parcel; see `unpack`. Only the settings that differ are structured."""
-        plain = parcel["config"]
-        if (parcel["folder"], parcel["sources"]) == self._origin and self._plain.keys() == plain.keys():
-            changed = {key: value for key, value in plain.items() if self._plain[key] != plain_bytes(value)}
-            with suppress(InputErrors, InputError, ValueError, TypeError):  # then `unpack` says what is wrong
-                if all(content_hash(file) == sha256 for file, sha256 in self._files):
-                    return attrs.evolve(self.config, **self._structure.settings(changed))
-        return unpack(parcel)
-
-
 class Settings:
-    """Structures some settings of one run after another; what is as in the run before is not structured again."""
+    """Structures settings of one run after another; what is as in the run before is not structured again."""
 
     def __init__(self, folder: Path, sources: Mapping[str, str]) -> None:
         """See `References` for the arguments."""
         self._folder, self._structure = folder, Structure(folder, sources)
         self._last: dict[str, tuple[bytes, list[tuple[Path, str]], Any]] = {}
         """Plain data, files and value of each setting."""
+
+    def remember(self, plain: Mapping[str, Any], config: RunConfig) -> None:
+        """Take the settings of a run that is structured already."""
+        for name, value in plain.items():
+            self._last[name] = plain_bytes(value), _located(self._folder, value), getattr(config, name)
 
     def __call__(self, plain: Mapping[str, Any]) -> dict[str, Any]:
         """Return settings of `RunConfig` by name, from plain data.
@@ -78,6 +57,28 @@ class Settings:
             value = self._structure.settings({name: plain})[name]
             self._last[name] = data, _located(self._folder, plain), value
         return value
+
+
+class Unpacking:
+    """Unpacks parcels that have most settings in common."""
+
+    def __init__(self, first: Mapping[str, Any]) -> None:
+        """Unpack the first parcel.
+
+        Raises:
+            InputErrors: see `unpack`.
+        """
+        self._origin = first["folder"], first["sources"], first["config"].keys()
+        self.config = unpack(first)
+        self._settings = Settings(Path(first["folder"]), first["sources"])
+        self._settings.remember(first["config"], self.config)
+
+    def __call__(self, parcel: Mapping[str, Any]) -> RunConfig:
+        """Return the configuration of a parcel; see `unpack`. Only the settings that differ are structured."""
+        if (parcel["folder"], parcel["sources"], parcel["config"].keys()) == self._origin:
+            with suppress(InputErrors, InputError, ValueError, TypeError):  # then `unpack` says what is wrong
+                return attrs.evolve(self.config, **self._settings(parcel["config"]))
+        return unpack(parcel)
 
 
 def _located(folder: Path, value: Any) -> list[tuple[Path, str]]:
