@@ -58,8 +58,8 @@ types: install
 layers: install
 	$(BIN)/lint-imports
 
-cpp: install ## run the C++ tests, without Python
-	$(BIN)/cmake -S native -B build/native -G Ninja -DCMAKE_MAKE_PROGRAM=$(CURDIR)/$(BIN)/ninja -DCMAKE_BUILD_TYPE=Release
+cpp: install ## run the C++ tests, without Python, of the libraries that `make install` has built
+	$(BIN)/cmake -S native -B build/native -G Ninja -DCMAKE_MAKE_PROGRAM=$(CURDIR)/$(BIN)/ninja -DBUILT="$(abspath $(wildcard native/build/cp3*))"
 	$(BIN)/cmake --build build/native
 	$(BIN)/ctest --test-dir build/native --output-on-failure
 
@@ -99,7 +99,7 @@ sanitize: install ## run native tests and soaks under AddressSanitizer and Undef
 	$(BIN)/ctest --test-dir $(SANITIZED)/cpp --output-on-failure
 	test -x $(SANITIZED)/bin/python || $(PYTHON) -m venv $(SANITIZED)
 	SKBUILD_BUILD_DIR=$(CURDIR)/$(SANITIZED)/native SKBUILD_CMAKE_DEFINE=SANITIZE=ON $(SANITIZED)/bin/python -m pip install --quiet --disable-pip-version-check -r requirements.txt
-	$(CHECKED) -m pytest -p no:cacheprovider native plugins/planners/mapf plugins/simulators/planar plugins/controllers/dwb plugins/localizers/amcl plugins/localizers/slam
+	$(CHECKED) -m pytest -p no:cacheprovider native plugins/planners/mapf plugins/simulators/planar plugins/controllers/dwb plugins/controllers/pure_pursuit plugins/navigators/waypoints plugins/localizers/amcl plugins/localizers/slam
 	$(CHECKED) plugins/planners/mapf/tests/soak_planners.py 2000 2
 	$(CHECKED) plugins/planners/mapf/tests/soak_assigning.py 1000 2
 

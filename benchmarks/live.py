@@ -72,9 +72,9 @@ def script(*words: str) -> "subprocess.Popen[str]":
     return subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
 
 
-def scenario(seconds: str, *more: str) -> tuple[int, int, float]:
-    """Run the patrol; return how often the robots swapped, the contacts, and the longest standstill in seconds."""
-    said = script("rmf_scenarios.py", "swap", "--seconds", seconds, *more).communicate()[0]
+def scenario(*words: str) -> tuple[int, int, float]:
+    """Run a scenario; return the pairs of destinations reached, the contacts, and the longest standstill in seconds."""
+    said = script("rmf_scenarios.py", *words).communicate()[0]
     found = [re.search(words, said) for words in (r"reached (\d+)", r"contacts (\d+)", r"of both ([\d.]+)")]
     if None in found:
         return 0, -1, -1.0
@@ -84,13 +84,21 @@ def scenario(seconds: str, *more: str) -> tuple[int, int, float]:
 
 def swaps() -> Iterator[Figure]:
     """The patrol of two robots in a corridor with one lane, with and without an order in which they pass."""
-    done, contacts, standstill = scenario("3600")
+    done, contacts, standstill = scenario("swap", "--seconds", "3600")
     found = f"{done} swaps, {contacts} contacts, both stood for {standstill:.1f} s at most"
     holds = done >= SWAPS and contacts == 0 and 0 <= standstill < 60
     yield Figure("patrol swap by adg, 3,600 s", f"{SWAPS} swaps, no contact, no deadlock", found, holds)
-    done, contacts, standstill = scenario("60", "dispatcher.dispatcher=all_at_once")
+    done, contacts, standstill = scenario("swap", "--seconds", "60", "dispatcher.dispatcher=all_at_once")
     found = f"{done} swaps, {contacts} contacts"
     yield Figure("patrol swap by all_at_once, 60 s", "contacts, or no swap", found, contacts > 0 or done == 0)
+
+
+def published() -> Iterator[Figure]:
+    """The two scenarios that next_gen_prototype publishes."""
+    for name, pairs in (("redirect", 2), ("follow", 1)):
+        done, contacts, _ = scenario(name)
+        found = f"{done} of {pairs} pairs of destinations reached, {contacts} contacts"
+        yield Figure(f"scenario {name}", "all reached, no contact", found, done == pairs and contacts == 0)
 
 
 def traffic() -> Iterator[Figure]:
@@ -119,9 +127,13 @@ FIGURES: dict[str, Callable[[], Iterator[Figure]]] = {
     "lib": lambda: tested(
         "vda-5050-lib on both sides", f"{ORDERS} orders a vehicle, no error", "vda5050/test_vda_5050_lib.py"
     ),
+    "vehicles": lambda: tested(
+        "vehicles of vda5050-sdk under our fleet control", "they swap places", "vda5050/test_foreign_vehicle.py"
+    ),
     "hostile": lambda: tested("broken messages", f"{MESSAGES:,} leave the vehicle at work", "vda5050/test_hostile.py"),
     "broker": lambda: tested("broker killed", f"{KILLS} times, no contact", "vda5050/test_control.py killed"),
     "load": lambda: tested("load of transports", "the knee is found, for ours and another", "vda5050/test_load.py"),
+    "scenarios": published,
     "swap": swaps,
     "traffic": traffic,
 }
