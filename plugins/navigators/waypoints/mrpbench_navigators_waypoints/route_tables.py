@@ -157,14 +157,23 @@ class RouteTables:
         goal = self.first + self.goal
         into = np.roll(heading, 1, axis=1).take(row, axis=1)  # NaN at each first corner
         arrival = _table(*waypoint[:, :2].T, rules.waypoint_tolerance, *into, into[0] * 0 + rules.passing_tolerance)
-        arrival[goal, 2] = rules.xy_goal_tolerance
+        arrival[goal, 2] = np.minimum(rules.xy_goal_tolerance, self._leaving(rules.waypoint_tolerance))
         arrival[goal, 3:] = np.nan
         return arrival
 
+    def _leaving(self, least: float) -> Float:
+        """Metres f8[n] from its goal, `least` or more, within which each robot has cleared the place before: others may
+        wait for that, and a robot that rests there would let them wait for ever.
+        """
+        into_goal = self.first_corner + np.maximum(self.last_corner - 1, 0)
+        room: Float = np.sqrt(self.legs[into_goal, 4]) - self.clearing[into_goal, 2]
+        return np.where((self.last_corner == 0) | self.is_short[into_goal], np.inf, np.maximum(room, least))
 
-def _table(*columns: Float | float) -> Float:
+
+def _table(first: Float, *others: Float | float) -> Float:
     """An array f8[k,c] of c columns; k values of a column are written faster than c values of a row."""
-    table: Float = np.empty((len(columns[0]), len(columns)))
+    columns = (first, *others)
+    table: Float = np.empty((len(first), len(columns)))
     for index, column in enumerate(columns):
         table[:, index] = column
     return table

@@ -1,10 +1,11 @@
 """Moves of a hunt: new cases, and cases near another one.
 
 Robots that never meet break nothing. New cases therefore lead pairs of robots along one edge in opposite directions at
-the same time, or all robots through one vertex. The edge begins at any vertex, or, more often, at one of a kind
-(`Space.kinds`): all kinds have the same probability, so that a junction of which there is one is tried as often as
-those of which there are many. In half of the new cases all pairs meet at one vertex. Of several cases that moves make,
-the one is taken in which most robots would meet if they drove alone (`meetings`).
+the same time, or all robots through one vertex, and some robots through the start or goal of another one. The edge
+begins at any vertex, or, more often, at one of a kind (`Space.kinds`): all kinds have the same probability, so that a
+junction of which there is one is tried as often as those of which there are many. In half of the new cases all pairs
+meet at one vertex. Of several cases that moves make, the one is taken in which most robots would meet if they drove
+alone (`meetings`).
 """
 
 from collections.abc import Callable, Sequence
@@ -71,6 +72,8 @@ class Moves:
         else:
             for pair in zip(order[::2], order[1::2], strict=False):
                 case = self._meeting(case, *pair, vertex)
+        if case.robots > 1 and self.rng.random() < 0.25:
+            case = self._passing(case, *order[:2])
         events = (
             event if event.get("at") is None else event | self._elsewhere(case, event | {"place": None})
             for event in case.events
@@ -90,6 +93,7 @@ class Moves:
             moves.append(self._moved_goal)
         if case.robots > 1 and case.stream is None:
             moves += [self._exchanged, lambda it: self._meeting(it, *self._two(it.robots))]
+            moves.append(lambda it: self._passing(it, *self._two(it.robots)))
         if case.stream is not None and len(case.stream) > 1:
             moves += [self._other_times, self._other_order]
         if case.events:
@@ -153,6 +157,22 @@ class Moves:
                 if found is not case and self._has_room(found):
                     case = found
                     break
+        return case
+
+    def _passing(self, case: Case, one: int, other: int) -> Case:
+        """Lead a robot through the place at which another one starts, or ends."""
+        space, scenario = self.space, case.scenario
+        position, level = scenario.start[other, :2], scenario.start_level[other]
+        if other < len(case.tasks) and case.stream is None and self.rng.random() < 0.5:
+            position, level = case.tasks[other].goals[-1, :2], case.tasks[other].levels[-1]
+        vertex = int(space.vertex[space.place_of(*position.tolist(), int(level))])
+        able = np.flatnonzero(np.isfinite(space.distance[:, vertex]) & (space.distance[:, vertex] > 0))
+        for start in self.rng.permutation(able).tolist()[:TRIES]:
+            goal = self._beyond(start, vertex, start)
+            if goal is not None and space.vertex[goal] != vertex:
+                found = self._placed(case, one, start, goal)
+                if self._has_room(found):
+                    return found
         return case
 
     def _vertex(self) -> int:

@@ -39,6 +39,7 @@ SPACE = Space(
     vertex_position=POSITION,
     kinds=_kinds(EDGES, len(POSITION), []),
     room=0.5,
+    tick=1.0,
     **_ways(ROADMAP, POSITION, ROADMAP["level"]),
 )
 
@@ -48,19 +49,36 @@ SPACE = Space(
     [
         ([(0, 8), (8, 0)], [0]),  # head on, in the middle at the same time
         ([(0, 8), (7, 0)], [1]),  # head on, half an edge from a vertex
-        ([(0, 8), (3, 8)], [3]),  # one after the other
+        ([(0, 7), (3, 8)], [3]),  # one after the other
+        ([(0, 8), (3, 6)], [0]),  # the goal of one lies on the way of the other one
         ([(0, 8), (9, 17)], []),  # in different aisles
-        ([(0, 8), (8, 0), (4, 5)], [0, 4, 2]),
+        ([(0, 8), (8, 0), (4, 5)], [0, 0, 0]),
     ],
 )
 def test_the_least_gaps_of_pairs_count(ways, gaps):
     assert meetings(SPACE, case_of(*ways)) == pytest.approx(sum(math.exp(-gap) for gap in gaps))
 
 
-def test_tasks_over_time_belong_to_no_robot():
-    case = case_of((0, 8), (8, 0))
-    assert meetings(SPACE, attrs.evolve(case, stream=case.scenario.tasks)) == 0.0
+def over_time(*goals):
+    """Two robots at the ends of an aisle, and tasks: when each is released, and its goals."""
+    tasks = [
+        Task(goals=[(*POSITION[goal], np.nan) for goal in each], levels=[0] * len(each), release=release, index=index)
+        for index, (release, each) in enumerate(goals)
+    ]
+    return attrs.evolve(case_of((0, 0), (8, 8)), stream=tuple(tasks))
 
 
-def test_a_goal_that_cannot_be_reached_meets_nobody():
+def test_a_task_over_time_is_done_by_the_robot_that_comes_to_it_first():
+    assert meetings(SPACE, over_time((0, [1]), (0, [7]))) == 0.0
+    assert meetings(SPACE, over_time((0, [1, 5]), (0, [7, 4]))) == 1.0  # one stays at 5, on the way of the other one
+    late = over_time((0, [3]), (100, [2]))  # the robot at 3 is nearer than the one at 8
+    assert meetings(SPACE, late) == 0.0
+
+
+def test_tasks_over_time_that_cannot_be_done_at_the_same_time_meet_less():
+    near = meetings(SPACE, over_time((0, [3, 0]), (0, [5, 2])))
+    assert near > meetings(SPACE, over_time((0, [3, 0]), (60, [5, 2]))) > 0
+
+
+def test_a_goal_that_cannot_be_reached_meets_no_robot():
     assert meetings(SPACE, case_of((0, 17), (8, 0))) == 0.0

@@ -41,6 +41,7 @@ def space(robots=4):
         vertex_position=position,
         kinds=_kinds(edges, len(position), []),
         room=0.5,
+        tick=1.0,
         **_ways(roadmap, position, roadmap["level"]),
     )
 
@@ -85,6 +86,16 @@ def test_two_robots_of_a_new_case_meet_head_on_at_about_the_same_time(seed):
 def test_nearly_all_new_cases_have_such_a_pair():
     made = moves(0)
     assert sum(made._meeting(FIRST, 1, 2) is not FIRST for _ in range(100)) > 80
+
+
+@given(st.integers(0, 10**6))
+def test_a_robot_passes_the_start_or_the_goal_of_another_one(seed):
+    case = moves(seed)._passing(FIRST, 1, 2)
+    assert case is not FIRST
+    start, goal = place(case.scenario.start[1]), place(case.tasks[1].goals[0])
+    ways = SPACE.distance
+    ends = place(FIRST.scenario.start[2]), place(FIRST.tasks[2].goals[0])
+    assert any(start != end != goal and ways[start, end] + ways[end, goal] == ways[start, goal] for end in ends)
 
 
 def place(pose):
