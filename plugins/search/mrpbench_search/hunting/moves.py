@@ -1,10 +1,12 @@
 """Moves of a hunt: new cases, and cases near another one.
 
 Robots that never meet break nothing. New cases therefore lead pairs of robots along one edge in opposite directions at
-the same time, or all robots through one vertex. The edge begins at any vertex, or, more often, at one of a kind
-(`Space.kinds`): all kinds have the same probability, so that a junction of which there is one is tried as often as
-those of which there are many. In half of the new cases all pairs meet at one vertex. Of several cases that moves make,
-the one is taken in which most robots would meet if they drove alone (`meetings`).
+the same time, one robot through the start or goal of another one, or all robots through one vertex. The edge begins at
+any vertex, or, more often, at one of a kind (`Space.kinds`): all kinds have the same probability, so that a junction of
+which there is one is tried as often as those of which there are many. In half of the new cases all pairs meet at one
+vertex. Tasks over time belong to no robot: of these some that follow one another get goals near one vertex at about the
+same time. Of several cases that moves make, the one is taken in which most robots would meet if they drove alone
+(`meetings`).
 """
 
 from collections.abc import Callable, Sequence
@@ -27,6 +29,10 @@ EXACT = 1e-3
 """Ticks by which equal ways may differ."""
 SAME_TIME = 1.0
 """Durations of an edge by which two robots that meet there may differ, as they drive alone."""
+THROUGH = 1 / 3
+"""Probability that a robot of a pair is led through an end of the other one."""
+LATER = 2.0
+"""Mean or standard deviation in seconds of the time between tasks that move to about the same time."""
 NEAR = 6
 """Places among which a start or goal moves."""
 NUDGE = 0.1
@@ -66,11 +72,14 @@ class Moves:
         case = self.drawn(int(self.rng.integers(len(self.space.scenarios))))
         order = self.rng.permutation(case.robots).tolist()
         vertex = self._vertex() if self.rng.random() < 0.5 else None
-        if case.robots > 2 and self.rng.random() < 0.5:
+        if case.stream is not None:
+            case = self._gathered(case)
+        elif case.robots > 2 and self.rng.random() < 0.5:
             case = self._crossing(case, order, self._vertex() if vertex is None else vertex)
         else:
             for pair in zip(order[::2], order[1::2], strict=False):
-                case = self._meeting(case, *pair, vertex)
+                through = self.rng.random() < THROUGH
+                case = self._through_end(case, *pair) if through else self._meeting(case, *pair, vertex)
         events = (
             event if event.get("at") is None else event | self._elsewhere(case, event | {"place": None})
             for event in case.events
@@ -90,8 +99,9 @@ class Moves:
             moves.append(self._moved_goal)
         if case.robots > 1 and case.stream is None:
             moves += [self._exchanged, lambda it: self._meeting(it, *self._two(it.robots))]
+            moves.append(lambda it: self._through_end(it, *self._two(it.robots)))
         if case.stream is not None and len(case.stream) > 1:
-            moves += [self._other_times, self._other_order]
+            moves += [self._other_times, self._other_order, self._gathered]
         if case.events:
             moves += 2 * [lambda it: self._other_event(it, int(self.rng.integers(len(it.events))))]
         if any(block.get("given") for block in case.crowds):
@@ -132,6 +142,36 @@ class Moves:
             if self._has_room(found):
                 return found
         return case
+
+    def _through_end(self, case: Case, one: int, other: int) -> Case:
+        """Lead a robot through the goal of another one, where that stands at last, or through its start."""
+        space = self.space
+        ends = [(case.scenario.start[other], case.scenario.start_level[other])]
+        ends += [(task.goals[-1], task.levels[-1]) for task in case.tasks[other : other + 1]]
+        pose, level = ends[int(self.rng.integers(len(ends)))]
+        place = space.place_of(*pose[:2].tolist(), int(level))
+        to = space.distance[:, space.vertex[place]]
+        for start in self.rng.permutation(np.flatnonzero(np.isfinite(to) & (to > 0))).tolist()[:TRIES]:
+            goal = self._beyond(start, int(space.vertex[place]), place)
+            found = case if goal is None else self._placed(case, one, start, goal)
+            if found is not case and self._has_room(found):
+                return found
+        return case
+
+    def _gathered(self, case: Case) -> Case:
+        """Let tasks over time that follow one another have goals near one vertex, at about the same time."""
+        if not case.tasks:
+            return case
+        first = int(self.rng.integers(len(case.tasks)))
+        to = self.space.distance[:, self._vertex()]
+        able = np.flatnonzero(np.isfinite(to))
+        near = able[np.argsort(to[able], kind="stable")]
+        tasks, release = list(case.tasks), case.tasks[first].release
+        for index in range(first, min(first + case.robots, len(tasks))) if len(near) else ():
+            row = int(self.rng.integers(len(tasks[index].goals)))
+            tasks[index] = _at(self._to(tasks[index], row, self._near(near)), release)
+            release += float(self.rng.exponential(LATER))
+        return case.with_tasks(tuple(tasks))
 
     def _crossing(self, case: Case, robots: Sequence[int], vertex: int) -> Case:
         """Lead robots through one vertex at about the same time, as they drive alone, so that they wait for each other.
@@ -206,7 +246,7 @@ class Moves:
         """Release a task at about the time of another one."""
         tasks = list(case.tasks)
         one, other = self._two(len(tasks))
-        release = max(0.0, tasks[other].release + float(self.rng.normal(0, 2)))
+        release = max(0.0, tasks[other].release + float(self.rng.normal(0, LATER)))
         tasks[one] = _at(tasks[one], release)
         return case.with_tasks(tuple(tasks))
 
@@ -287,10 +327,14 @@ class Moves:
 
     def _with_goal(self, case: Case, index: int, row: int, place: int) -> Case:
         tasks = list(case.tasks)
-        goals, levels = tasks[index].goals.copy(), tasks[index].levels.copy()
-        goals[row], levels[row] = (*self.space.position[place], np.nan), self.space.level[place]
-        tasks[index] = attrs.evolve(tasks[index], goals=goals, levels=levels, name="")
+        tasks[index] = self._to(tasks[index], row, place)
         return case.with_tasks(tuple(tasks))
+
+    def _to(self, task: Task, row: int, place: int) -> Task:
+        """A task with another place."""
+        goals, levels = task.goals.copy(), task.levels.copy()
+        goals[row], levels[row] = (*self.space.position[place], np.nan), self.space.level[place]
+        return attrs.evolve(task, goals=goals, levels=levels, name="")
 
     def _tried(self, case: Case, change: Callable[[int], Case], places: Int) -> Case:
         for place in self.rng.permutation(places).tolist():

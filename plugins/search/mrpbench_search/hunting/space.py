@@ -54,6 +54,8 @@ class Space:
     """Vertices of the roadmap by what is around them; see `_kinds`."""
     room: float
     """Least distance between two starts, and between two goals, metres."""
+    tick: float
+    """Seconds of a tick."""
 
     def between(self, one: int, other: int) -> Float:
         """Return by how much ways from place `one` to place `other` are longer through each vertex, f8[V] ticks."""
@@ -99,6 +101,7 @@ def read_space(point: StudyRun, first: int) -> Space:
         position=poses[:most],
         level=levels[:most],
         room=drawn["room"],
+        tick=drawn["tick"],
         vertex_position=roadmap["position"],
         kinds=_kinds(roadmap["edges"], len(roadmap["position"]), drawn["resources"]),
         **_ways(roadmap, poses[:most], levels[:most]),
@@ -152,6 +155,7 @@ def draw(parcel: Mapping[str, Any], seeds: Sequence[int]) -> dict[str, Any]:
         "roadmap": arrays,
         "resources": [[resource.kind, list(resource.vertices)] for resource in roadmap.resources],
         "room": 2 * float(found.fleet.radii.max()),
+        "tick": float(roadmap.tick),
     }
 
 

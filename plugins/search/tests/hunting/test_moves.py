@@ -41,6 +41,7 @@ def space(robots=4):
         vertex_position=position,
         kinds=_kinds(edges, len(position), []),
         room=0.5,
+        tick=1.0,
         **_ways(roadmap, position, roadmap["level"]),
     )
 
@@ -80,6 +81,35 @@ def test_two_robots_of_a_new_case_meet_head_on_at_about_the_same_time(seed):
     if case is not FIRST:
         ends = [(place(case.scenario.start[robot]), place(case.tasks[robot].goals[0])) for robot in (1, 2)]
         assert meets(*ends[0], *ends[1])
+
+
+@given(st.integers(0, 10**6))
+def test_a_robot_is_led_through_an_end_of_another_one(seed):
+    case = moves(seed)._through_end(FIRST, 1, 2)
+    if case is not FIRST:
+        start, goal = place(case.scenario.start[1]), place(case.tasks[1].goals[0])
+        ends = place(FIRST.scenario.start[2]), place(FIRST.tasks[2].goals[0])
+        distance = SPACE.distance
+        assert any(distance[start, end] + distance[end, goal] == distance[start, goal] for end in ends)
+        assert distinct(case.scenario.start)
+        assert distinct([task.goals[0] for task in case.tasks])
+
+
+def test_nearly_always_there_is_such_a_way():
+    made = moves(0)
+    assert sum(made._through_end(FIRST, 1, 2) is not FIRST for _ in range(100)) > 80
+
+
+@given(st.integers(0, 10**6))
+def test_tasks_over_time_come_to_one_vertex_at_about_the_same_time(seed):
+    tasks = tuple(Task(goals=FIRST.tasks[at % 4].goals, release=20.0 * at, deadline=20.0 * at + 9) for at in range(8))
+    case = Case(scenario=attrs.evolve(FIRST.scenario, tasks=()), seed=0, stream=tasks)
+    gathered = moves(seed)._gathered(case)
+    moved = [task for task in gathered.tasks if task.release % 20]
+    first = min((task.release for task in moved), default=0.0) // 20 * 20
+    assert len(moved) <= 3
+    assert all(first < task.release == pytest.approx(task.deadline - 9) for task in moved)
+    assert [task.index for task in gathered.tasks] == list(range(8))
 
 
 def test_nearly_all_new_cases_have_such_a_pair():
