@@ -42,13 +42,13 @@ def drives(space: Space, case: Case) -> list[list[Drive]]:
 
     Tasks over time are done in the order of their release, each by the robot that can be at its first goal first.
     """
-    starts = zip(case.scenario.start.tolist(), case.scenario.start_level.tolist(), strict=True)
-    at = np.array([space.place_of(x, y, level) for (x, y, _), level in starts], np.int64)
+    starts = zip(case.scenario.start, case.scenario.start_level.tolist(), strict=True)
+    at = np.array([space.place_of(*start) for start in starts], np.int64)
     free = np.zeros(case.robots)
     found: list[list[Drive]] = [[] for _ in range(case.robots)]
     for index, task in enumerate(case.tasks if case.stream is not None else case.tasks[: case.robots]):
         rows = np.unique(task.errand, return_index=True)[1].tolist()  # the first place of each errand
-        goals = [space.place_of(*task.goals[row, :2].tolist(), int(task.levels[row])) for row in rows]
+        goals = [space.place_of(task.goals[row], int(task.levels[row])) for row in rows]
         robot, release = index, 0.0
         if case.stream is not None:
             release = task.release / space.tick

@@ -149,7 +149,7 @@ class Moves:
         ends = [(case.scenario.start[other], case.scenario.start_level[other])]
         ends += [(task.goals[-1], task.levels[-1]) for task in case.tasks[other : other + 1]]
         pose, level = ends[int(self.rng.integers(len(ends)))]
-        place = space.place_of(*pose[:2].tolist(), int(level))
+        place = space.place_of(pose, int(level))
         to = space.distance[:, space.vertex[place]]
         for start in self.rng.permutation(np.flatnonzero(np.isfinite(to) & (to > 0))).tolist()[:TRIES]:
             goal = self._beyond(start, int(space.vertex[place]), place)
@@ -221,16 +221,15 @@ class Moves:
 
     def _moved_start(self, case: Case) -> Case:
         robot = int(self.rng.integers(case.robots))
-        x, y = case.scenario.start[robot, :2].tolist()
-        near = self.space.nearest(self.space.place_of(x, y, int(case.scenario.start_level[robot])), NEAR)
+        place = self.space.place_of(case.scenario.start[robot], int(case.scenario.start_level[robot]))
+        near = self.space.nearest(place, NEAR)
         return self._tried(case, lambda place: self._placed(case, robot, place, None), near)
 
     def _moved_goal(self, case: Case) -> Case:
         index = int(self.rng.integers(len(case.tasks)))
         task = case.tasks[index]
         row = int(self.rng.integers(len(task.goals)))
-        x, y = task.goals[row, :2].tolist()
-        near = self.space.nearest(self.space.place_of(x, y, int(task.levels[row])), NEAR)
+        near = self.space.nearest(self.space.place_of(task.goals[row], int(task.levels[row])), NEAR)
         return self._tried(case, lambda place: self._with_goal(case, index, row, place), near)
 
     def _exchanged(self, case: Case) -> Case:
@@ -285,12 +284,12 @@ class Moves:
         """A place beside the way of a robot."""
         robot = int(self.rng.integers(case.robots))
         task = case.tasks[robot % len(case.tasks)]
-        ends = [(*case.scenario.start[robot, :2], int(case.scenario.start_level[robot]))]
-        ends.append((*task.goals[0, :2], int(task.levels[0])))
+        ends = [(case.scenario.start[robot], int(case.scenario.start_level[robot]))]
+        ends.append((task.goals[0], int(task.levels[0])))
         detour = self.space.between(*(self.space.place_of(*end) for end in ends))
         vertex = int(self.rng.choice(np.flatnonzero(detour <= max(1e-3, float(detour.min())))))
         place = self.space.vertex_position[vertex] + self.rng.normal(0, ASIDE, 2)
-        return {"place": [round(float(x), 3) for x in place], "level": ends[0][2]}
+        return {"place": [round(float(x), 3) for x in place], "level": ends[0][1]}
 
     def _other_people(self, case: Case) -> Case:
         """Let one of the people who are `given` start elsewhere, and walk to elsewhere."""

@@ -70,9 +70,9 @@ class Space:
         order: Int = np.argsort(ways, kind="stable")[:count]
         return np.extract(np.isfinite(ways[order]), order)
 
-    def place_of(self, x: float, y: float, level: int) -> int:
-        """Return the place at a position, or the nearest one on its level."""
-        squared = ((self.position - (x, y)) ** 2).sum(axis=1)
+    def place_of(self, pose: Float, level: int) -> int:
+        """Return the place at the position of a pose f8[3], or the nearest one on its level."""
+        squared = ((self.position - pose[:2]) ** 2).sum(axis=1)
         return int(np.where(self.level == level, squared, np.inf).argmin())
 
 
