@@ -160,8 +160,6 @@ class Moves:
 
     def _gathered(self, case: Case) -> Case:
         """Let tasks over time that follow one another have goals near one vertex, at about the same time."""
-        if not case.tasks:
-            return case
         first = int(self.rng.integers(len(case.tasks)))
         to = self.space.distance[:, self._vertex()]
         able = np.flatnonzero(np.isfinite(to))

@@ -35,7 +35,7 @@ class ForgetsParked(Planner):
 
 @attrs.frozen(kw_only=True)
 class LosesWakeUp(Adg):
-    """Releases as `adg`, but never again to a robot that waited for two robots of which one waits for a third."""
+    """Releases as `adg`, but never again to the last one of four robots of which each stands waiting for the next."""
 
     def start(self, problem, plan):
         return LosesWakeUpSession(self, problem, plan)
@@ -54,11 +54,13 @@ class LosesWakeUpSession(AdgSession):
             set(self.graph.blockers(robot)) if self.released[robot] == self.counts[0][robot] else set()
             for robot in range(len(self.released))
         ]
-        self.lost |= {
-            robot
-            for robot, others in enumerate(waits)
-            if len(others) > 1 and any(waits[other] - others - {robot} for other in others)
-        }
+
+        def before_it(robot, behind=()):
+            if robot in behind:
+                return 0
+            return max((1 + before_it(other, (*behind, robot)) for other in waits[robot]), default=0)
+
+        self.lost |= {robot for robot in range(len(waits)) if before_it(robot) > 2}
         if self.lost:
             kept = self.released.copy()
             for robot in self.lost:

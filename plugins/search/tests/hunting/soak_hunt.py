@@ -48,7 +48,7 @@ faults: {events: [{kind: blocked, at: 1 s}], patience: 10 s}
 WAKE_UP = DISPATCHER.replace("faulty.py:ReleasesEarly", "other_faults.py:LosesWakeUp")
 SAME_GOAL = """\
 fleet: {robot: turtlebot3_burger, lidar: none}
-tasks: {plugin: poisson, rate: 2}
+tasks: {plugin: poisson, rate: 3}
 assigner: {plugin: "./other_faults.py:KeyedByGoal"}
 planner: {plugin: rolling_horizon, planner: pibt}
 limits: {execution: 60 s}
@@ -58,7 +58,7 @@ STUDIES = {
     "dispatcher": (EXECUTED.format(name="dispatcher", cell=0.5, robots=4) + ONCE + DISPATCHER, "contact"),
     "controller": (EXECUTED.format(name="controller", cell=1, robots=2) + ONCE + CONTROLLER, "contact"),
     "parked": (STUDY.replace("faulty.py:SwapsAtJunctions", "other_faults.py:ForgetsParked"), "invalid"),
-    "wake_up": (EXECUTED.format(name="wake_up", cell=0.5, robots=6) + ONCE + WAKE_UP, "failure"),
+    "wake_up": (EXECUTED.format(name="wake_up", cell=0.5, robots=5) + ONCE + WAKE_UP, "failure"),
     "same_goal": (EXECUTED.format(name="same_goal", cell=0.5, robots=3) + SAME_GOAL, "crash"),
 }
 BUDGET = "250runs"
