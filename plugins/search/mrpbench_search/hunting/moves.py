@@ -1,15 +1,15 @@
 """Moves of a hunt: new cases, and cases near another one.
 
 Robots that never meet break nothing. New cases therefore lead pairs of robots along one edge in opposite directions at
-the same time, one robot through the start or goal of another one, or all robots through one vertex. The edge begins at
-any vertex, or, more often, at one of a kind (`Space.kinds`): all kinds have the same probability, so that a junction of
-which there is one is tried as often as those of which there are many. In half of the new cases all pairs meet at one
-vertex. Tasks over time belong to no robot: of these some that follow one another get goals near one vertex at about the
-same time. Of several cases that moves make, the one is taken in which most robots would meet if they drove alone
-(`meetings`).
+the same time, or one robot of each pair through the goal of the other one, or all robots through one vertex; each of
+these with the same probability. The vertex at which robots meet is any one, or, more often, one of a kind
+(`Space.kinds`): all kinds have the same probability, so that a junction of which there is one is tried as often as
+those of which there are many. In half of the cases with opposite directions all pairs meet at one vertex. Tasks over
+time belong to no robot: of these some that follow one another get goals near one vertex at about the same time. Of
+several cases of one sort, the one is taken in which most robots would meet if they drove alone (`meetings`).
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import attrs
@@ -29,8 +29,6 @@ EXACT = 1e-3
 """Ticks by which equal ways may differ."""
 SAME_TIME = 1.0
 """Durations of an edge by which two robots that meet there may differ, as they drive alone."""
-THROUGH = 1 / 3
-"""Probability that a robot of a pair is led through an end of the other one."""
 LATER = 2.0
 """Mean or standard deviation in seconds of the time between tasks that move to about the same time."""
 NEAR = 6
@@ -61,31 +59,41 @@ class Moves:
         )
 
     def new(self) -> Case:
-        """Return a case that is near no other one: a draw in which robots meet."""
-        return max([self._new() for _ in range(SEVERAL)], key=lambda case: meetings(self.space, case))
+        """Return a case that is near no other one: a draw in which robots meet in one of the ways."""
+        ways = [self._head_on, self._through_goals] + [self._through_one_vertex] * (self.first.robots > 2)
+        way = self._gathered if self.first.stream is not None else ways[int(self.rng.integers(len(ways)))]
+        return max([self._new(way) for _ in range(SEVERAL)], key=lambda case: meetings(self.space, case))
 
     def near(self, case: Case) -> Case:
         """Return a case that differs from another one in one or a few ways."""
         return max([self._near_to(case) for _ in range(SEVERAL // 2)], key=lambda it: meetings(self.space, it))
 
-    def _new(self) -> Case:
-        case = self.drawn(int(self.rng.integers(len(self.space.scenarios))))
-        order = self.rng.permutation(case.robots).tolist()
-        vertex = self._vertex() if self.rng.random() < 0.5 else None
-        if case.stream is not None:
-            case = self._gathered(case)
-        elif case.robots > 2 and self.rng.random() < 0.5:
-            case = self._crossing(case, order, self._vertex() if vertex is None else vertex)
-        else:
-            for pair in zip(order[::2], order[1::2], strict=False):
-                through = self.rng.random() < THROUGH
-                case = self._through_end(case, *pair) if through else self._meeting(case, *pair, vertex)
+    def _new(self, way: Callable[[Case], Case]) -> Case:
+        case = way(self.drawn(int(self.rng.integers(len(self.space.scenarios)))))
         events = (
             event if event.get("at") is None else event | self._elsewhere(case, event | {"place": None})
             for event in case.events
         )
         case = attrs.evolve(case, events=tuple(events))
         return self._other_people(case)
+
+    def _head_on(self, case: Case) -> Case:
+        vertex = self._vertex() if self.rng.random() < 0.5 else None
+        for pair in self._pairs(case):
+            case = self._meeting(case, *pair, vertex)
+        return case
+
+    def _through_goals(self, case: Case) -> Case:
+        for pair in self._pairs(case):
+            case = self._through_goal(case, *pair)
+        return case
+
+    def _through_one_vertex(self, case: Case) -> Case:
+        return self._crossing(case, self.rng.permutation(case.robots).tolist(), self._vertex())
+
+    def _pairs(self, case: Case) -> Iterable[tuple[int, int]]:
+        order = self.rng.permutation(case.robots).tolist()
+        return zip(order[::2], order[1::2], strict=False)
 
     def _near_to(self, case: Case) -> Case:
         for _ in range(int(self.rng.geometric(0.6))):
@@ -99,7 +107,7 @@ class Moves:
             moves.append(self._moved_goal)
         if case.robots > 1 and case.stream is None:
             moves += [self._exchanged, lambda it: self._meeting(it, *self._two(it.robots))]
-            moves.append(lambda it: self._through_end(it, *self._two(it.robots)))
+            moves.append(lambda it: self._through_goal(it, *self._two(it.robots)))
         if case.stream is not None and len(case.stream) > 1:
             moves += [self._other_times, self._other_order, self._gathered]
         if case.events:
@@ -143,18 +151,22 @@ class Moves:
                 return found
         return case
 
-    def _through_end(self, case: Case, one: int, other: int) -> Case:
-        """Lead a robot through the goal of another one, where that stands at last, or through its start."""
+    def _through_goal(self, case: Case, one: int, other: int) -> Case:
+        """Lead a robot through the goal of another one, which starts near it and so stands there for long."""
+        if other >= len(case.tasks):
+            return case
         space = self.space
-        ends = [(case.scenario.start[other], case.scenario.start_level[other])]
-        ends += [(task.goals[-1], task.levels[-1]) for task in case.tasks[other : other + 1]]
-        pose, level = ends[int(self.rng.integers(len(ends)))]
-        place = space.place_of(pose, int(level))
-        to = space.distance[:, space.vertex[place]]
-        for start in self.rng.permutation(np.flatnonzero(np.isfinite(to) & (to > 0))).tolist()[:TRIES]:
-            goal = self._beyond(start, int(space.vertex[place]), place)
-            found = case if goal is None else self._placed(case, one, start, goal)
-            if found is not case and self._has_room(found):
+        task = case.tasks[other]
+        end = space.place_of(task.goals[-1], int(task.levels[-1]))
+        to = space.distance[:, space.vertex[end]]
+        able = np.flatnonzero(np.isfinite(to) & (to > 0))
+        near = able[np.argsort(to[able], kind="stable")]
+        for start in self.rng.permutation(able).tolist()[:TRIES]:
+            goal = self._beyond(start, int(space.vertex[end]), end)
+            if goal is None:
+                continue
+            found = self._placed(self._placed(case, one, start, goal), other, self._near(near), None)
+            if self._has_room(found):
                 return found
         return case
 
