@@ -1,12 +1,12 @@
 """Moves of a hunt: new cases, and cases near another one.
 
 Robots that never meet break nothing. New cases therefore lead pairs of robots along one edge in opposite directions at
-the same time, or one robot of each pair through the goal of the other one, or all robots through one vertex; each of
-these with the same probability. The vertex at which robots meet is any one, or, more often, one of a kind
+the same time, or all robots through one vertex. The edge begins at any vertex, or, more often, at one of a kind
 (`Space.kinds`): all kinds have the same probability, so that a junction of which there is one is tried as often as
-those of which there are many. In half of the cases with opposite directions all pairs meet at one vertex. Tasks over
-time belong to no robot: of these some that follow one another get goals near one vertex at about the same time. Of
-several cases of one sort, the one is taken in which most robots would meet if they drove alone (`meetings`).
+those of which there are many. In half of the new cases all pairs meet at one vertex. In a third of the new cases one
+robot of each pair is led through the goal of the other one instead. Tasks over time belong to no robot: of these some
+that follow one another get goals near one vertex at about the same time. Of several cases of one sort, the one is taken
+in which most robots would meet if they drove alone (`meetings`).
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -29,6 +29,8 @@ EXACT = 1e-3
 """Ticks by which equal ways may differ."""
 SAME_TIME = 1.0
 """Durations of an edge by which two robots that meet there may differ, as they drive alone."""
+THROUGH = 1 / 3
+"""Share of the new cases in which robots are led through goals."""
 LATER = 2.0
 """Mean or standard deviation in seconds of the time between tasks that move to about the same time."""
 NEAR = 6
@@ -59,9 +61,11 @@ class Moves:
         )
 
     def new(self) -> Case:
-        """Return a case that is near no other one: a draw in which robots meet in one of the ways."""
-        ways = [self._head_on, self._through_goals] + [self._through_one_vertex] * (self.first.robots > 2)
-        way = self._gathered if self.first.stream is not None else ways[int(self.rng.integers(len(ways)))]
+        """Return a case that is near no other one: a draw in which robots meet."""
+        if self.first.stream is not None:
+            way = self._gathered
+        else:
+            way = self._through_goals if self.rng.random() < THROUGH else self._at_vertices
         return max([self._new(way) for _ in range(SEVERAL)], key=lambda case: meetings(self.space, case))
 
     def near(self, case: Case) -> Case:
@@ -77,8 +81,11 @@ class Moves:
         case = attrs.evolve(case, events=tuple(events))
         return self._other_people(case)
 
-    def _head_on(self, case: Case) -> Case:
+    def _at_vertices(self, case: Case) -> Case:
         vertex = self._vertex() if self.rng.random() < 0.5 else None
+        if case.robots > 2 and self.rng.random() < 0.5:
+            order = self.rng.permutation(case.robots).tolist()
+            return self._crossing(case, order, self._vertex() if vertex is None else vertex)
         for pair in self._pairs(case):
             case = self._meeting(case, *pair, vertex)
         return case
@@ -87,9 +94,6 @@ class Moves:
         for pair in self._pairs(case):
             case = self._through_goal(case, *pair)
         return case
-
-    def _through_one_vertex(self, case: Case) -> Case:
-        return self._crossing(case, self.rng.permutation(case.robots).tolist(), self._vertex())
 
     def _pairs(self, case: Case) -> Iterable[tuple[int, int]]:
         order = self.rng.permutation(case.robots).tolist()

@@ -6,6 +6,17 @@ import pytest
 
 from mrpbench_core.store.results import load
 
+HALL = """\
+@@@@@@.@@@@@
+@@@@@@.@@@@@
+@@@@@@.@@@@@
+............
+....@.......
+............
+.@........@.
+......@.....
+............
+"""
 OPEN = "type octile\nheight 3\nwidth 20\nmap\n" + ("." * 20 + "\n") * 3
 PLANNED = """\
 name: planned
@@ -17,6 +28,35 @@ planner: PLANNER
 simulator: none
 metrics: [planning]
 """
+DISPATCHED = """\
+name: dispatched
+world: {plugin: movingai, file: hall.map, resolution: 0.5}
+roadmap: grid
+scenario: {plugin: file, file: starts.yaml}
+fleet: {robot: turtlebot3_burger, lidar: none}
+assigner: identity
+planner: example
+dispatcher: DISPATCHER
+limits: {execution: 60 s}
+control_rate: 10
+metrics: [execution]
+"""
+QUEUE = """\
+mrpbench_scenario: 1
+robots:
+  - {x: 2.75, y: 2.25}
+  - {x: 3.25, y: 2.75}
+  - {x: 4.25, y: 2.25}
+  - {x: 3.75, y: 2.75}
+  - {x: 3.75, y: 2.25}
+tasks:
+  - {goals: [{x: 3.75, y: 2.75}]}
+  - {goals: [{x: 1.25, y: 1.75}]}
+  - {goals: [{x: 2.25, y: 2.75}]}
+  - {goals: [{x: 1.75, y: 0.25}]}
+  - {goals: [{x: 1.25, y: 2.25}]}
+"""
+"""A case that a hunt found: robots of the hall stand waiting in a row."""
 OVER_TIME = """\
 name: over_time
 world: {plugin: movingai, file: open.map, resolution: 0.5}
@@ -39,6 +79,7 @@ def status(mrpbench):
         pytest.importorskip(needed)
     Path("other_faults.py").write_text((Path(__file__).parent / "other_faults.py").read_text())
     Path("open.map").write_text(OPEN)
+    Path("hall.map").write_text(f"type octile\nheight 9\nwidth 12\nmap\n{HALL}")
 
     def run(study, starts):
         Path("starts.yaml").write_text(starts)
@@ -70,6 +111,13 @@ def scenario(robots, tasks, size=1.0):
 def test_a_robot_that_stands_at_its_goal_is_forgotten_after_some_time(status, planner, goal, expected):
     starts = scenario([goal, 0], [(goal, 0), (19, 0)])
     assert status(PLANNED.replace("PLANNER", f'{{plugin: "{planner}"}}'), starts) == expected
+
+
+@pytest.mark.parametrize(
+    ("dispatcher", "expected"), [("./other_faults.py:LosesWakeUp", "goals_missed"), ("adg", "succeeded")]
+)
+def test_the_last_one_of_four_robots_that_wait_in_a_row_is_lost(status, dispatcher, expected):
+    assert status(DISPATCHED.replace("DISPATCHER", f'{{plugin: "{dispatcher}"}}'), QUEUE) == expected
 
 
 @pytest.mark.parametrize(
