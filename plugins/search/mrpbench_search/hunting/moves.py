@@ -156,7 +156,7 @@ class Moves:
         return case
 
     def _through_goal(self, case: Case, one: int, other: int) -> Case:
-        """Lead a robot through the goal of another one, which starts near it and so stands there for long."""
+        """Lead a robot, often from far away, through the goal of another one, which starts near it and stands there."""
         if other >= len(case.tasks):
             return case
         space = self.space
@@ -165,7 +165,8 @@ class Moves:
         to = space.distance[:, space.vertex[end]]
         able = np.flatnonzero(np.isfinite(to) & (to > 0))
         near = able[np.argsort(to[able], kind="stable")]
-        for start in self.rng.permutation(able).tolist()[:TRIES]:
+        for _ in range(TRIES if len(near) else 0):
+            start = self._near(near[::-1]) if self.rng.random() < 0.5 else int(self.rng.choice(near))
             goal = self._beyond(start, int(space.vertex[end]), end)
             if goal is None:
                 continue
