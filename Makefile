@@ -58,8 +58,8 @@ types: install
 layers: install
 	$(BIN)/lint-imports
 
-cpp: install ## run the C++ tests, without Python
-	$(BIN)/cmake -S native -B build/native -G Ninja -DCMAKE_MAKE_PROGRAM=$(CURDIR)/$(BIN)/ninja -DCMAKE_BUILD_TYPE=Release
+cpp: install ## run the C++ tests, without Python, of the libraries that `make install` has built
+	$(BIN)/cmake -S native -B build/native -G Ninja -DCMAKE_MAKE_PROGRAM=$(CURDIR)/$(BIN)/ninja -DBUILT="$(abspath $(wildcard native/build/cp3*))"
 	$(BIN)/cmake --build build/native
 	$(BIN)/ctest --test-dir build/native --output-on-failure
 
@@ -99,7 +99,7 @@ sanitize: install ## run native tests and soaks under AddressSanitizer and Undef
 	$(BIN)/ctest --test-dir $(SANITIZED)/cpp --output-on-failure
 	test -x $(SANITIZED)/bin/python || $(PYTHON) -m venv $(SANITIZED)
 	SKBUILD_BUILD_DIR=$(CURDIR)/$(SANITIZED)/native SKBUILD_CMAKE_DEFINE=SANITIZE=ON $(SANITIZED)/bin/python -m pip install --quiet --disable-pip-version-check -r requirements.txt
-	$(CHECKED) -m pytest -p no:cacheprovider native plugins/planners/mapf plugins/simulators/planar plugins/controllers/dwb plugins/localizers/amcl plugins/localizers/slam
+	$(CHECKED) -m pytest -p no:cacheprovider native plugins/planners/mapf plugins/simulators/planar plugins/controllers/dwb plugins/controllers/pure_pursuit plugins/navigators/waypoints plugins/localizers/amcl plugins/localizers/slam
 	$(CHECKED) plugins/planners/mapf/tests/soak_planners.py 2000 2
 	$(CHECKED) plugins/planners/mapf/tests/soak_assigning.py 1000 2
 
@@ -150,11 +150,13 @@ ros: ## test live ROS 2, with rclpy from PyPI in its own environment (Python 3.1
 	$(ROS)/python -m pytest -p no:cacheprovider plugins/bridges/ros2
 
 LIVE := build/live/bin
-live: ## drive vehicles of VDA 5050 by vda5050-sdk and vda-5050-lib and vehicles of both, kill the broker 20 times, send 100,000 broken messages; needs mosquitto, and npm
+live: ## drive vehicles of VDA 5050 by vda5050-sdk and vda-5050-lib and vehicles of both, kill the broker 20 times, send 100,000 broken messages, run scenarios and fleets of Open-RMF (half an hour); needs mosquitto, and npm
 	test -x $(LIVE)/python || $(PYTHON) -m venv build/live
 	$(LIVE)/python -m pip install --quiet hypothesis pytest pytest-timeout vda5050-sdk aiomqtt -e . ./native -e plugins -e 'plugins/live[rmf,vda5050]'
 	if command -v npm >/dev/null; then npm install --silent --no-save --prefix build/live vda-5050-lib@1.4.0; fi
 	NODE_PATH=build/live/node_modules MRPBENCH_LIVE_ORDERS=50 MRPBENCH_LIVE_MESSAGES=100000 MRPBENCH_LIVE_KILLS=20 $(LIVE)/python -m pytest --timeout 1200 -p no:cacheprovider plugins/live
+	for scenario in redirect follow "swap --seconds 4500" "swap --seconds 120 dispatcher.dispatcher=all_at_once"; do $(LIVE)/python benchmarks/rmf_scenarios.py $$scenario || exit 1; done
+	$(LIVE)/python benchmarks/rmf_traffic.py --robots 10 50 100 200 500 --seconds 60
 
 PAPER := table2 fig5 table4 paper replicability
 paper: install ## repeat the paper's tables in office, warehouse and airport, with bodies (ten hours; what is done is not repeated); ARGS="seed=3000" PAPER=paper for less

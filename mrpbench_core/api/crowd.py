@@ -31,7 +31,7 @@ class CrowdSession(ABC):
     def step(self, dt: float, view: CrowdView) -> Movers:
         """Move for `dt` simulated seconds; nothing but the crowd itself keeps its members out of walls and robots.
 
-        Crowds move in turn, in the order of the configuration: those before this one have moved already, so that nobody
+        Crowds move in turn, in the order of the configuration: those before this one have moved already, so that none
         of two crowds comes to the same place. Robots are seen where they were at the beginning of the period. A member
         stays on its level, and moves at most 5 m/s, or more than a metre in one step: then it is put there.
         """

@@ -9,7 +9,7 @@ from contextlib import nullcontext, redirect_stdout
 from pathlib import Path
 from typing import Any
 
-from mrpbench_core.cli.input.arguments import add_configuration, read_options, split_words
+from mrpbench_core.cli.input.arguments import add_configuration, add_executor, read_options, split_words
 from mrpbench_core.cli.output.progress import SHORT, Printed
 from mrpbench_core.cli.output.summary import plugins_line, print_summary
 from mrpbench_core.cli.output.table import print_json, print_table
@@ -37,11 +37,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--out", metavar="DIR", help="results folder (default: results/NAME, with the name of the study)"
     )
-    parser.add_argument("--workers", type=int, default=1, metavar="N", help="number of runs at a time (default: 1)")
-    parser.add_argument(
-        "--executor", default="processes", metavar="NAME", help="executor of the runs (default: %(default)s)"
-    )
-    parser.add_argument("--executor-option", action="append", default=[], metavar="K=V", help="option of the executor")
+    add_executor(parser)
     parser.add_argument(
         "--shard", metavar="i/n", help="do only part i of n, counted from 0; give each part its own --out"
     )

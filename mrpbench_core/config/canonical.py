@@ -49,11 +49,6 @@ def sources(components: Iterable[Component], folder: Path) -> dict[str, str]:
     return texts
 
 
-def same_work(one: Mapping[str, Any], other: Mapping[str, Any]) -> bool:
-    """Tell whether two canonical configurations differ at most in keys that do not identify a run."""
-    return bool(_work(one) == _work(other))
-
-
 def plugin_name(component: Component, folder: Path) -> str:
     """Return the name by which a configuration in `folder` chooses a component."""
     return Registry(kind_class(type(component))).name_of(type(component), folder)

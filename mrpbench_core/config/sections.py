@@ -1,4 +1,4 @@
-"""The metrics that sections of a configuration add: who names tasks, people, delays or faults asks about them."""
+"""The metrics that a configuration with tasks, people, delays or faults gets without naming them."""
 
 from collections.abc import Iterator
 

@@ -31,6 +31,10 @@ from mrpbench_core.config.faults import Faults
 from mrpbench_core.files.robot import robot_file, robot_reads
 from mrpbench_core.model.common.fleet import LEAST_RATE, MOST_BEAMS
 from mrpbench_core.model.runs.routing import PlanFilter
+from mrpbench_core.plugins.contract import is_of
+from mrpbench_core.plugins.provenance import origin
+
+GROUND_TRUTH = "mrpbench_core.builtin.localizers.ground_truth"
 
 ROBOT = "turtlebot3_burger"
 _SHARE = between(0, 1)
@@ -304,6 +308,14 @@ class RunConfig:
     def executes(self) -> bool:
         """False if the run ends after planning."""
         return self.simulator is not None or self.execution == "schedule_only"
+
+    @property
+    def granted_localizer(self) -> str | None:
+        """The name of the localizer that needs `grant_truth`, or None: `ground_truth` is named for what it gets."""
+        localizer = self.localizer
+        if localizer is None or not localizer.needs_truth or is_of(type(localizer), GROUND_TRUTH):
+            return None
+        return str(origin(type(localizer))["name"])
 
 
 def default_plugin(key: str) -> Any:

@@ -1,22 +1,17 @@
 """Configurations of runs from plain data, in processes that did not read the study."""
 
 import os
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
 from itertools import chain
 from pathlib import Path
 from typing import Any
-
-import attrs
 
 from mrpbench_core.config.content import content_hash
 from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.structure import Structure, structure
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.model.common.plain import plain_bytes
-
-Unpack = Callable[[Mapping[str, Any]], RunConfig]
-"""Returns the configuration of a `RunData.parcel`; see `unpack`."""
 
 
 def unpack(parcel: Mapping[str, Any], *, verify: bool = True) -> RunConfig:
@@ -29,54 +24,37 @@ def unpack(parcel: Mapping[str, Any], *, verify: bool = True) -> RunConfig:
 
 
 class Unpacking:
-    """Unpacks parcels that have most settings in common, which are those of the first one."""
+    """Unpacks one parcel after another; settings that are as in the one before are not structured again."""
 
-    def __init__(self, first: Mapping[str, Any]) -> None:
-        """Unpack the first parcel.
-
-        Raises:
-            InputErrors: see `unpack`.
-        """
-        self._origin = first["folder"], first["sources"]
-        self._plain = {key: plain_bytes(value) for key, value in first["config"].items()}
-        self._files = _located(Path(first["folder"]), first["config"])
-        self._structure = Structure(Path(first["folder"]), first["sources"])
-        self.config = unpack(first)
-
-    def __call__(self, parcel: Mapping[str, Any]) -> RunConfig:
-        """Return the configuration of a parcel; see `unpack`. Only the settings that differ are structured."""
-        plain = parcel["config"]
-        if (parcel["folder"], parcel["sources"]) == self._origin and self._plain.keys() == plain.keys():
-            changed = {key: value for key, value in plain.items() if self._plain[key] != plain_bytes(value)}
-            with suppress(InputErrors, InputError, ValueError, TypeError):  # then `unpack` says what is wrong
-                if all(content_hash(file) == sha256 for file, sha256 in self._files):
-                    return attrs.evolve(self.config, **self._structure.settings(changed))
-        return unpack(parcel)
-
-
-class Settings:
-    """Structures some settings of one run after another; what is as in the run before is not structured again."""
-
-    def __init__(self, folder: Path, sources: Mapping[str, str]) -> None:
-        """See `References` for the arguments."""
-        self._folder, self._structure = folder, Structure(folder, sources)
+    def __init__(self) -> None:
+        self._origin: tuple[str, Mapping[str, str]] = "", {}
+        self._structure: Structure
         self._last: dict[str, tuple[bytes, list[tuple[Path, str]], Any]] = {}
         """Plain data, files and value of each setting."""
 
-    def __call__(self, plain: Mapping[str, Any]) -> dict[str, Any]:
-        """Return settings of `RunConfig` by name, from plain data.
+    def __call__(self, parcel: Mapping[str, Any]) -> RunConfig:
+        """Return the configuration of a parcel; see `unpack`."""
+        with suppress(InputErrors, InputError, ValueError, TypeError):  # then `unpack` says what is wrong
+            return RunConfig(**self.settings(parcel, parcel["config"]))
+        return unpack(parcel)
+
+    def settings(self, parcel: Mapping[str, Any], names: Iterable[str]) -> dict[str, Any]:
+        """Return some settings of `RunConfig` by name, without the plugins of the others.
 
         Raises:
             InputErrors: what is wrong with one of them.
         """
-        return {name: self._setting(name, value) for name, value in plain.items()}
+        if self._origin != (parcel["folder"], parcel["sources"]):
+            self._origin, self._last = (parcel["folder"], parcel["sources"]), {}
+            self._structure = Structure(Path(parcel["folder"]), parcel["sources"])
+        return {name: self._setting(name, parcel["config"][name]) for name in names}
 
     def _setting(self, name: str, plain: Any) -> Any:
         data = plain_bytes(plain)
         before, files, value = self._last.get(name, (b"", [], None))
         if data != before or any(content_hash(file) != sha256 for file, sha256 in files):
             value = self._structure.settings({name: plain})[name]
-            self._last[name] = data, _located(self._folder, plain), value
+            self._last[name] = data, _located(Path(self._origin[0]), plain), value
         return value
 
 

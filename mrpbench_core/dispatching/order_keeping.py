@@ -97,7 +97,7 @@ class OrderKeepingSession(DispatcherSession):
         self._begin_to_release(committed)
 
     def waits_for(self, robot: int) -> list[int]:
-        """Return the robots that come first in the order in force, of which the dispatcher does not know that they have
+        """Return the robots that come first in the current order, of which the dispatcher does not know that they have
         passed.
         """
         return self.graph.blockers(robot)
@@ -153,7 +153,7 @@ class OrderKeepingSession(DispatcherSession):
         requested = self.graph.request(counts, view.granted)
         if requested or changed:
             self._release()
-            if len(self._speed):  # whoever may go on now does not wait for the next profile
+            if len(self._speed):  # robots that may go on now do not wait for the next profile
                 self._speed = np.where(self.graph.released > self._free, np.inf, self._speed)
         requests = self.graph.requests.pairs()
         in_step = self.graph.in_step(counts[REACHED])

@@ -57,7 +57,7 @@ class SpeedProfiles:
 
     Args:
         problem: being executed.
-        graph: has the order in force.
+        graph: has the current order.
         margin: seconds by which robots come later than they may go on at the earliest.
     """
 

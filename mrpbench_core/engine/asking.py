@@ -6,7 +6,6 @@ import attrs
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.engine.execution.loop_inputs import granted_localizer
 from mrpbench_core.engine.prepare.question import SETTINGS, facts_of
 from mrpbench_core.plugins.provenance import components_in, is_of_others, title
 from mrpbench_core.referee.asked import Asked
@@ -35,7 +34,7 @@ def asked_of(config: RunConfig, run_id: str) -> Asked:
         plan_filter=config.plan_filter,
         actuation=config.noise.actuation,
         apart=config.crowds_apart,
-        true_poses=granted_localizer(config),
+        true_poses=config.granted_localizer,
         titles={name: title(value) for name, value in chosen.items() if isinstance(value, Component)},
     )
 

@@ -16,7 +16,7 @@ Announce = Callable[[Stage, dict[str, Any]], None]
 
 
 def ignore(*_: Any, **__: Any) -> None:
-    """Take announcements and progress where nobody waits for them."""
+    """Take announcements and progress where no process waits for them."""
 
 
 @attrs.frozen(kw_only=True)

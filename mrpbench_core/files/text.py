@@ -37,7 +37,7 @@ def read_bytes(path: Path | str) -> bytes:
 
 
 def _open(path: str, flags: int) -> int:
-    """Open a file, and a named pipe into which nobody writes as if it were empty: `open` would wait for a writer."""
+    """Open a file, and a named pipe without a writer as if it were empty: `open` would wait for a writer."""
     descriptor = os.open(path, flags | os.O_NONBLOCK)
     os.set_blocking(descriptor, True)
     return descriptor

@@ -15,7 +15,7 @@ from mrpbench_core.model.common.geometry import point_segment_distance
 from mrpbench_core.model.common.poses import wrapped
 from mrpbench_core.model.execution.movers import Mover
 from mrpbench_core.model.runs.routing import start_poses
-from mrpbench_core.model.runs.run import FinishedRun
+from mrpbench_core.model.runs.run import FinishedRun, RunContext
 from mrpbench_core.model.worlds.world import World
 
 NUDGE, TURN = 0.05, 0.1
@@ -50,18 +50,19 @@ def motion_fault(run: FinishedRun, rate: float, actuation: float, apart: bool = 
 
 def _faults(run: FinishedRun, rate: float, actuation: float, apart: bool) -> Iterator[str]:
     context, time, truth = run.first_context(), run.channel("time"), run.channel("truth")
-    level, names = run.channel("level"), context.fleet.names
+    level = run.channel("level")
     if not len(time) or not np.isfinite(truth).all():
         yield "some poses are missing or not finite"
         return
     yield from _sampling(time, rate, context.period)
     away = np.abs(truth[0] - start_poses(context.routes, context.scenario.start[:, 2]))[:, :2].max(axis=1)
-    yield from (f"{names[robot]} does not begin at its start" for robot in np.flatnonzero(away > START))
+    yield from (f"{context.fleet.names[robot]} does not begin at its start" for robot in np.flatnonzero(away > START))
     pushed = _pushed(run, time, len(context.fleet))
     excess = EXCESS + 4 * actuation
     yield from _speeds(time, truth, pushed, context.fleet, excess)
-    yield from _walls(context.world, names, time, truth[..., :2], level)
-    yield from _levels(context.world, names, time, truth[..., :2], level)
+    reach = excess * np.array([robot.max_speed for robot in context.fleet.robots]) * np.diff(time)[:, None]
+    yield from _walls(context.world, context.fleet, time, truth[..., :2], level, reach)
+    yield from _levels(context, time, truth[..., :2], level, reach)
     yield from _overlaps(run, time, truth, level, () if apart else context.movers)
     yield from _accelerations(time, truth, pushed, context.fleet)
 
@@ -90,9 +91,7 @@ def _pushed(run: FinishedRun, time: Float, robots: int) -> Bool:
 
 def _speeds(time: Float, truth: Float, pushed: Bool, fleet: Fleet, excess: float) -> Iterator[str]:
     """Mean speeds and turn rates over a second, or over one step of recordings with fewer samples."""
-    steps = max(1, int(np.searchsorted(time, time[0] + WINDOW_S)))
-    if len(time) <= steps:
-        steps = len(time) - 1
+    steps = min(max(1, int(np.searchsorted(time, time[0] + WINDOW_S))), len(time) - 1)
     if steps < 1:
         return
     spans = (time[steps:] - time[:-steps])[:, None]
@@ -142,10 +141,18 @@ def _accelerations(time: Float, truth: Float, pushed: Bool, fleet: Fleet) -> Ite
             return
 
 
-def _walls(world: World, names: tuple[str, ...], time: Float, place: Float, level: Int16) -> Iterator[str]:
-    """Centres of robots that go through walls, obstacles or blocked cells. Equal steps of robots are judged once."""
+def _walls(world: World, fleet: Fleet, time: Float, place: Float, level: Int16, reach: Float) -> Iterator[str]:
+    """Centres of robots that go through walls, obstacles or blocked cells, and not round them between two samples.
+
+    A way of length l between places that are d apart leaves the straight line by at most sqrt(l**2 - d**2) / 2, which
+    must be the radius of a disc that goes round something on that line. `reach` f8[T-1,n] is l, metres.
+    """
+    moved = np.hypot(*np.moveaxis(np.diff(place, axis=0), -1, 0))
+    aside = np.sqrt(np.maximum(reach**2 - moved**2, 0.0)) / 2
+    radius = np.array([inscribed_radius(robot) for robot in fleet.robots])
+    straight = (moved > 0) & (aside < np.maximum(radius - DEPTH, 1e-9))
     for index, layer in enumerate(world.levels):
-        on = (level[:-1] == index) & (level[1:] == index) & (place[1:] != place[:-1]).any(axis=2)
+        on = (level[:-1] == index) & (level[1:] == index) & straight
         sample, robot = np.nonzero(on)
         if not len(sample):
             continue
@@ -154,7 +161,7 @@ def _walls(world: World, names: tuple[str, ...], time: Float, place: Float, leve
         crossing = np.flatnonzero(near)[~has_clearance(layer, start[near], end[near], 0.0)]
         if len(crossing):
             first = int(crossing[0])
-            yield f"{names[robot[first]]} goes through a wall at {time[sample[first]]:g} s"
+            yield f"{fleet.names[robot[first]]} goes through a wall at {time[sample[first]]:g} s"
             return
 
 
@@ -169,15 +176,16 @@ def _near(layer: object, start: Float, end: Float) -> Bool:
     return near
 
 
-def _levels(world: World, names: tuple[str, ...], time: Float, place: Float, level: Int16) -> Iterator[str]:
+def _levels(context: RunContext, time: Float, place: Float, level: Int16, reach: Float) -> Iterator[str]:
     """Robots change levels in lifts only."""
     sample, robot = np.nonzero(level[1:] != level[:-1])
     for index, who in zip(sample.tolist(), robot.tolist(), strict=True):
         here = place[index + 1, who]
         if not any(
-            np.hypot(*(here - (lift.x, lift.y))) <= np.hypot(lift.width, lift.depth) / 2 for lift in world.lifts
+            np.hypot(*(here - (lift.x, lift.y))) <= np.hypot(lift.width, lift.depth) / 2 + reach[index, who]
+            for lift in context.world.lifts
         ):
-            yield f"{names[who]} changes levels at {time[index + 1]:g} s outside of a lift"
+            yield f"{context.fleet.names[who]} changes levels at {time[index + 1]:g} s outside of a lift"
             return
 
 

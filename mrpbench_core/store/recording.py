@@ -24,7 +24,7 @@ from mrpbench_core.model.execution.movers import Mover
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import Paths, Plan, PlanResult
 from mrpbench_core.model.runs.instance import Instance
-from mrpbench_core.model.runs.recording import Chunk
+from mrpbench_core.model.runs.recording import Chunk, pose_channel
 from mrpbench_core.model.runs.routes import RouteHistory
 from mrpbench_core.model.runs.routing import PlanFilter, ends_of
 from mrpbench_core.model.runs.run import RunContext
@@ -315,6 +315,11 @@ class Recording:
     def channels(self) -> Mapping[str, Callable[[], NDArray[Any]]]:
         """A loader for each channel, by name."""
         return {name: partial(self.channel, name) for name in self._parts}
+
+    @property
+    def pose_channel(self) -> str | None:
+        """The channel of poses to show: the truth, or else the estimates; None if nothing was executed."""
+        return pose_channel(self._parts) if "time" in self._parts and len(self.channel("time")) else None
 
     def chunks(self) -> Iterator[Chunk]:
         """The chunks as they were written."""

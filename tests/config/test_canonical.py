@@ -118,7 +118,8 @@ def test_a_file_that_changed_is_refused_unless_only_looked_at(full, tmp_path):
 
 
 def test_settings_that_runs_have_in_common_are_structured_once(full, study, tmp_path):
-    unpacking = Unpacking(full.parcel)
+    unpacking = Unpacking()
+    first = unpacking(full.parcel)
     others = FULL.replace(
         "seed: 7",
         "matrix: {seed: [7, 8], planner.w: [1.0, 2], fleet.0.count: [1, 2], world.file: [maps/a.yaml, maps/b.yaml]}",
@@ -127,7 +128,7 @@ def test_settings_that_runs_have_in_common_are_structured_once(full, study, tmp_
     for run in study(others).runs:
         found = unpacking(json.loads(json.dumps(run.parcel)))
         assert found == run.config
-        assert found.controller is unpacking.config.controller
+        assert found.controller is first.controller
     elsewhere = {**full.parcel, "folder": str(tmp_path / "maps" / "..")}
     assert unpacking(elsewhere) == full.config
     (tmp_path / "maps" / "a.yaml").write_text("other walls")

@@ -24,7 +24,6 @@ PAGES = [
 ]
 
 
-@pytest.mark.timeout(600)
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: f"{page.parent.name}/{page.stem}")
 def test_what_a_page_says_works(page, tmp_path):
     if page.stem in SLOW and "MRPBENCH_ALL_PAGES" not in os.environ:

@@ -107,7 +107,6 @@ def test_a_bounded_planner_whose_factor_is_only_an_option_is_told_what_to_add(fo
     assert failed["declares features and promises"] == told
 
 
-@pytest.mark.timeout(300)
 def test_the_commands_know_them(tmp_path):
     site = tmp_path / "site"
     site.mkdir()

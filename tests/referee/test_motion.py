@@ -91,6 +91,32 @@ def close_in(channels):
     channels["truth"][:, 1, 0] = 1.5
 
 
+def sampled(context, x, y, seconds):
+    """The fault of a run of two robots, of which the first one has samples at x and y so many seconds apart."""
+    truth = np.zeros((len(x), 2, 3))
+    truth[:, :, 1] = 0.5
+    truth[:, 0, 0], truth[:, 0, 1], truth[:, 1, 0] = x, y, 1.5
+    channels = {
+        "time": np.arange(len(x)) * seconds,
+        "truth": truth,
+        "level": np.zeros((len(x), 2), int),
+        "contact_time": np.zeros(0),
+        "contact": np.zeros((0, 2), int),
+    }
+    loaders = {name: (lambda rows=rows: rows) for name, rows in channels.items()}
+    return motion_fault(FinishedRun(context=context, executed=True, channels=loaders), 1 / seconds, 0.0)
+
+
+def test_a_robot_may_go_round_a_wall_between_two_samples(run_context):
+    (level,) = run_context.world.levels
+    wall = attrs.evolve(level, walls=[*level.walls, [0.8, 0.3, 0.8, 0.7]])
+    context = attrs.evolve(run_context, world=attrs.evolve(run_context.world, levels=(wall,)))
+    assert sampled(context, [0.5, 1.1], [0.5, 0.5], 10.0) is None
+    assert sampled(run_context, [0.5, 1.1], [0.5, 0.5], 3.0) is None
+    said = sampled(context, [0.5, 1.1], [0.5, 0.5], 1.15)  # at 0.5 m/s: no way round is so short
+    assert said == "robot_0 goes through a wall at 0 s"
+
+
 def test_bodies_that_overlap_without_a_contact_are_named(fault):
     assert "robot_0 and robot_1 overlap at" in fault(close_in)
 

@@ -1,6 +1,7 @@
 """Planner `acme`: each robot takes a shortest path, as in fleets whose robots plan for themselves."""
 
 import heapq
+import time
 from typing import ClassVar
 
 import attrs
@@ -16,10 +17,13 @@ class Acme(Planner):
     supports: ClassVar[frozenset[Feature]] = frozenset({Feature.EDGE_DURATIONS, Feature.PROFILES})
     promises: ClassVar[frozenset[Promise]] = frozenset({Promise.DETERMINISTIC})
 
-    def plan(self, problem: Problem, budget: Budget) -> PlanResult:  # noqa: ARG002 - takes milliseconds
+    def plan(self, problem: Problem, budget: Budget) -> PlanResult:
         """Return the plan, or that there is none because a robot cannot reach its goal."""
+        deadline = time.monotonic() + budget.wall_s
         paths = []
         for robot in range(len(problem)):
+            if time.monotonic() > deadline:
+                return PlanResult(status=PlanStatus.TIMEOUT)
             path = shortest_path(problem, robot)
             if path is None:
                 return PlanResult(status=PlanStatus.UNSOLVABLE)

@@ -10,6 +10,7 @@ import numpy as np
 from mrpbench_core.checking.components import components
 from mrpbench_core.model.common.arrays import Float, Int
 from mrpbench_core.model.common.geometry import point_segment_distance, side
+from mrpbench_core.model.common.intervals import overlapping
 
 ROUNDS = 20
 """Largest number of passes. A cut bends lanes by up to the tolerance, which may create new junctions; in practice two
@@ -64,7 +65,7 @@ def _cut_once(pieces: LaneSegments, tolerance: float) -> LaneSegments:
 
 def _merge(points: Float, tolerance: float) -> tuple[Float, Int]:
     """Return the distinct points in order of first use, and the number of each given point among them."""
-    i, j = _overlapping(points[:, 0] - tolerance / 2, points[:, 0] + tolerance / 2)
+    i, j = overlapping(points[:, 0] - tolerance / 2, points[:, 0] + tolerance / 2)
     near = np.hypot(*(points[i] - points[j]).T) < tolerance
     first = components(len(points), np.stack([i[near], j[near]], axis=1))
     distinct = first == np.arange(len(points))
@@ -73,7 +74,7 @@ def _merge(points: Float, tolerance: float) -> tuple[Float, Int]:
 
 def _crossings(start: Float, end: Float, tolerance: float) -> Float:
     """Return points f8[c,2] where the interiors of two lanes cross. A lane that ends on another is cut elsewhere."""
-    i, j = _overlapping(np.minimum(start, end)[:, 0], np.maximum(start, end)[:, 0])
+    i, j = overlapping(np.minimum(start, end)[:, 0], np.maximum(start, end)[:, 0])
     a, b, c, d = start[i], end[i], start[j], end[j]
     proper = (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)
     a, b, c, d = a[proper], b[proper], c[proper], d[proper]
@@ -82,16 +83,6 @@ def _crossings(start: Float, end: Float, tolerance: float) -> Float:
     share = side(c, d, a) / (side(c, d, a) - side(c, d, b))
     crossing: Float = (a + share[:, None] * (b - a))[gap >= tolerance]
     return crossing
-
-
-def _overlapping(low: Float, high: Float) -> tuple[Int, Int]:
-    """Return all pairs of overlapping intervals, each once."""
-    order = np.argsort(low, kind="stable")
-    until = np.searchsorted(low[order], high[order], side="right")
-    counts = until - np.arange(len(order)) - 1
-    left = np.repeat(np.arange(len(order)), counts)
-    right = left + 1 + np.arange(len(left)) - np.repeat(np.cumsum(counts) - counts, counts)
-    return order[left], order[right]
 
 
 def _stops(position: Float, a: int, b: int, passed: Int, tolerance: float) -> Int:

@@ -5,6 +5,7 @@ import numpy as np
 from mrpbench_core.builtin.simulators.nearby import Nearby
 from mrpbench_core.model.common.arrays import Bool, Float, Int
 from mrpbench_core.model.common.geometry import point_segment_distance
+from mrpbench_core.model.common.intervals import overlapping
 
 TOLERANCE = 1e-4
 """metres by which discs may overlap walls or each other."""
@@ -82,12 +83,7 @@ class Discs:
 
     def _overlapping(self, centres: Float, depth: float) -> tuple[Int, Int]:
         """Pairs of a robot i8[k] and a disc i8[k] of higher index that overlap by more than `depth`, in order."""
-        order = np.argsort(centres[:, 0], kind="stable")
-        x = centres[order, 0]
-        count = np.searchsorted(x, x + 2 * self._widest, side="right") - np.arange(1, len(x) + 1)
-        left = np.repeat(np.arange(len(x)), count)
-        right = left + np.arange(1, len(left) + 1) - np.repeat(np.cumsum(count) - count, count)
-        first, second = np.sort([order[left], order[right]], axis=0)
+        first, second = np.sort(overlapping(centres[:, 0], centres[:, 0] + 2 * self._widest), axis=0)
         first, second = first[first < self._robots], second[first < self._robots]
         offset = centres[second] - centres[first]
         close = np.hypot(offset[:, 0], offset[:, 1]) < self._radii[first] + self._radii[second] - depth

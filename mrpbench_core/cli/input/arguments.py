@@ -23,6 +23,15 @@ def add_configuration(parser: argparse.ArgumentParser) -> None:
     )
 
 
+def add_executor(parser: argparse.ArgumentParser) -> None:
+    """Declare what does the runs, and how many at a time."""
+    parser.add_argument("--workers", type=int, default=1, metavar="N", help="number of runs at a time (default: 1)")
+    parser.add_argument(
+        "--executor", default="processes", metavar="NAME", help="executor of the runs (default: %(default)s)"
+    )
+    parser.add_argument("--executor-option", action="append", default=[], metavar="K=V", help="option of the executor")
+
+
 def split_words(words: Sequence[str]) -> tuple[list[str], list[str]]:
     """Return the files and the overrides."""
     overrides = [word for word in words if _OVERRIDE.match(word)]

@@ -22,9 +22,6 @@ _LOG = logging.getLogger(__name__)
 class ReplayWriter(Protocol):
     """What the module of the command `view` has besides the command."""
 
-    def has_poses(self, recording: Recording) -> bool:
-        """Tell whether a recording has motion to show."""
-
     def write_replay(self, recording: Recording, results: Results, record: dict[str, Any], page: Path) -> None:
         """Write the page of a recorded run."""
 
@@ -85,7 +82,7 @@ def try_write_replay(results: Results, run_id: str, page: Path) -> bool:
     try:
         recording = results.recording(run_id)
         try:
-            if not writer.has_poses(recording):
+            if recording.pose_channel is None:
                 return False
             writer.write_replay(recording, results, results[run_id], page)
         finally:

@@ -24,7 +24,7 @@ class Blockages(CrowdSession):
 
     @property
     def movers(self) -> Movers:
-        """The discs; one whose fault is not in force is absent."""
+        """The discs; one whose fault is not active is absent."""
         return self._movers
 
     def step(self, dt: float, view: CrowdView) -> Movers:

@@ -19,7 +19,7 @@ def commitments(problem: Problem, plan: Plan, released: Int32, reached: Int32, r
 
     Args:
         problem: that `plan` solves; gives the durations.
-        plan: in force.
+        plan: the current one.
         released: i4[n] leading segments of each path that its robot may complete.
         reached: i4[n] leading segments that it has completed.
         ready: i8[n] ticks at which each robot comes to the end of the first segment not reached.

@@ -24,7 +24,7 @@ def driven(plan: Plan, reached: Int32, cleared: Int32) -> Int32:
     enough that they are completed.
 
     Args:
-        plan: in force.
+        plan: the current one.
         reached: i4[n] leading segments that each robot has completed.
         cleared: i4[n] leading segments whose start it has left.
     """

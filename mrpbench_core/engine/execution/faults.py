@@ -1,4 +1,4 @@
-"""Faults of robots and of the building: drawn before the execution, and in force during it.
+"""Faults of robots and of the building: drawn before the execution, and active during it.
 
 Every draw comes from the stream of its own entry and robot (or door, lift, building), so that faults depend on neither
 the planner nor what happens during the execution.
@@ -137,7 +137,7 @@ def _event(
 
 
 class FaultState:
-    """The faults in force during one execution.
+    """The active faults during one execution.
 
     Args:
         settings: of the faults.
@@ -175,7 +175,7 @@ class FaultState:
 
     def _set(self, active: tuple[FaultEvent, ...]) -> None:
         self.active = active
-        """The faults in force."""
+        """The active faults."""
         self.stopped = self._mask("stop")
         """bool[n]: robots that stand."""
         self.lost = self._mask("stop", for_good=True)
@@ -199,12 +199,12 @@ class FaultState:
 
     @property
     def final(self) -> bool:
-        """True if a fault is in force, and none in force ends."""
+        """True if a fault is active, and no active one ends."""
         return bool(self.active) and all(math.isinf(event.end) for event in self.active)
 
     @property
     def obstacles(self) -> tuple[FaultEvent, ...]:
-        """The faults in force that others may go around."""
+        """The active faults that others may go around."""
         return tuple(event for event in self.active if event.kind not in ("slow", "lidar"))
 
     def of_robot(self, robot: int) -> FaultEvent | None:

@@ -178,7 +178,7 @@ class ExecutionLoop(ControlLoop):
             self._inputs.recorder.events(returned.events)
 
     def _adopt(self, new: Revision) -> bool:
-        """Put a new plan in force; tell whether there is one and the dispatcher accepts it."""
+        """Adopt a new plan; tell whether there is one and the dispatcher accepts it."""
         now, fault = self._now, new.fault
         if new.plan is not None and not fault:
             try:

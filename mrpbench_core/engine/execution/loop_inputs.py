@@ -24,11 +24,7 @@ from mrpbench_core.engine.execution.task_manager import TaskManager
 from mrpbench_core.engine.seeds import Seeds
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.runs.run import RunContext
-from mrpbench_core.plugins.contract import is_of
 from mrpbench_core.plugins.hooks import Hooks
-from mrpbench_core.plugins.provenance import origin
-
-GROUND_TRUTH = "mrpbench_core.builtin.localizers.ground_truth"
 
 
 @attrs.frozen(kw_only=True)
@@ -53,7 +49,7 @@ class LoopComponents:
             if chosen[field.name] is None:
                 raise InputError(f"{field.name}: cannot be 'none' when there is a simulator")
         inputs = cls(**chosen)
-        if granted_localizer(config) is not None and not config.grant_truth:
+        if config.granted_localizer is not None and not config.grant_truth:
             raise InputError(
                 f"localizer: {type(inputs.localizer).__name__} needs the true poses",
                 hint="`grant_truth: true` grants them",
@@ -64,17 +60,6 @@ class LoopComponents:
     def needs_truth(self) -> bool:
         """True if the localizer needs the true poses."""
         return bool(self.localizer.needs_truth)
-
-
-def granted_localizer(config: RunConfig) -> str | None:
-    """Return the name of the localizer that needs `grant_truth`, or None.
-
-    The localizer `ground_truth` of the core does not need it, because its name says what it is given.
-    """
-    localizer = config.localizer
-    if localizer is None or not localizer.needs_truth or is_of(type(localizer), GROUND_TRUTH):
-        return None
-    return str(origin(type(localizer))["name"])
 
 
 @attrs.frozen(kw_only=True)

@@ -25,7 +25,7 @@ class Reactions:
     """Asks for plans around faults, unless the fleet is to wait.
 
     Args:
-        faults: in force.
+        faults: of the execution.
         robots: their number.
         yaw: f8[n] radians wanted at the goals, NaN = any.
         sets: the planner takes sets of goals, so that robots that cannot reach theirs may make room.
@@ -37,7 +37,7 @@ class Reactions:
         self._gives_up = self._replans and faults.settings.reaction == "give_up"
         self._led_around: tuple[FaultEvent, ...] = ()
         self._not_before, self._wait = 0.0, RETRY_S
-        self._nobody: Bool = np.zeros(robots, bool)
+        self._none: Bool = np.zeros(robots, bool)
         self.given_up: Bool = np.zeros(robots, bool)
         """bool[n]: the task of the robot is given up."""
         self.astray: Bool = np.zeros(robots, bool)
@@ -49,12 +49,12 @@ class Reactions:
     @property
     def held(self) -> Bool:
         """The robots bool[n] that others go around: those that stand or are silent."""
-        return self._faults.stopped | self._faults.silent if self._replans else self._nobody
+        return self._faults.stopped | self._faults.silent if self._replans else self._none
 
     def update(self) -> Bool:
         """Return the robots bool[n] whose tasks are given up from now on."""
         if not self._gives_up:
-            return self._nobody
+            return self._none
         new: Bool = self._faults.stopped & ~self.given_up
         self.given_up = self.given_up | new
         return new
@@ -126,11 +126,11 @@ class Reactions:
         return Destinations(goals=tuple(goals), yaw=yaw, errands=nothing)
 
     def asked(self) -> None:
-        """Note that a plan around the faults in force was asked for."""
+        """Note that a plan around the active faults was asked for."""
         self._asked = (self.astray, self.cut_off, self._obstacles())
 
     def adopt(self) -> None:
-        """Note that the plan asked for last is in force."""
+        """Note that the plan asked for last is executed now."""
         self.astray, self.cut_off, self._led_around = self._asked
         self._not_before, self._wait = 0.0, RETRY_S
 

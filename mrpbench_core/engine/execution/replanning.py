@@ -61,7 +61,7 @@ class Replanner:
         problem: of the first plan.
         plan: the first plan.
         supports: features that the planner supports; with `since`, plans leave out what robots drove long ago.
-        reads_remaining: the planner uses what remains of the plan in force.
+        reads_remaining: the planner uses what remains of the current plan.
         chooses_goals: the planner decides where robots go.
         prediction: of what no plan moves; new plans keep away from it where they can.
     """
@@ -88,7 +88,7 @@ class Replanner:
         self._retry = max(RETRY_S, settings.delay or 0.0, settings.period or 0.0)
         self._not_before = 0.0
         self.pending: Revision | None = None
-        """Requested, not in force yet."""
+        """Requested, not executed yet."""
         self.interval = max(settings.period or 0.0, settings.delay or 0.0)
         """Simulated seconds within which the settings may call for a new plan."""
         self.failing = False
@@ -96,7 +96,7 @@ class Replanner:
         self.use(problem, plan)
 
     def use(self, problem: Problem, plan: Plan) -> None:
-        """Note that a plan is in force."""
+        """Note that a plan is executed from now on."""
         self.failing = False
         self.problem, self.plan, self.moves = problem, plan, moves_of(problem, plan)
         self._paths = Paths.of(plan.paths)
@@ -151,10 +151,10 @@ class Replanner:
         cut: Int32 = np.zeros(len(prefix), np.int32)
         if self._cuts:
             cut = driven(plan, view.reached, view.cleared)
-        in_force = attrs.evolve(problem, commitments=prefix)
+        current = attrs.evolve(problem, commitments=prefix)
         problem = without(problem, prefix, cut)
         if self._reads_remaining:
-            problem = attrs.evolve(problem, remaining=remaining(plan, released, in_force))
+            problem = attrs.evolve(problem, remaining=remaining(plan, released, current))
         if self._settings.window is not None:
             horizon = max(ends_of(problem)) + math.ceil(self._settings.window / tick - 1e-9)
             problem = attrs.evolve(problem, horizon=horizon)

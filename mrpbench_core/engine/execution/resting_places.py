@@ -59,10 +59,10 @@ class RestingPlaces:
     """The vertices at which robots come to rest, and what they leave to others."""
 
     def __init__(self, near: Neighbourhoods) -> None:
-        self._near, self._problem = near, near.problem
-        self._radii, self._size = np.unique(self._problem.radius, return_inverse=True)
+        self._near = near
+        self._radii, self._size = np.unique(near.problem.radius, return_inverse=True)
         self._applied = np.zeros(len(self._radii), np.int64)
-        self._free = np.ones((len(self._radii), len(self._problem.roadmap.position)), bool)
+        self._free = np.ones((len(self._radii), len(near.problem.roadmap.position)), bool)
         """For robots of each radius, the vertices that the first `_applied` robots leave to them."""
         self.vertex: dict[int, int] = {}
         """Of each robot, in the order in which they took them."""
@@ -95,13 +95,11 @@ class RestingPlaces:
 
     def free(self, robot: int) -> Bool:
         """The vertices bool[V] at which there is room for one more robot."""
-        roadmap, size = self._problem.roadmap, int(self._size[robot])
+        size = int(self._size[robot])
         free, others = self._free[size], [*self.vertex.items()]
         for other, vertex in others[self._applied[size] :]:
-            gap = np.hypot(*(roadmap.position - roadmap.position[vertex]).T)
-            beside = gap < self._near.radius[other] + self._radii[size] - TOLERANCE
-            free &= ~(beside & (roadmap.level == roadmap.level[vertex]))
-            free[vertex] = False
+            reach = self._near.radius[other] + (self._radii[size] - TOLERANCE)
+            free[[there for there, gap in self._near.of(vertex) if there == vertex or gap < reach]] = False
         self._applied[size] = len(others)
         left: Bool = free.copy()
         return left

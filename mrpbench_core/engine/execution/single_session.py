@@ -10,6 +10,7 @@ from mrpbench_core.engine.execution.resources import PlannedResources
 from mrpbench_core.engine.execution.schedule import Schedule
 from mrpbench_core.engine.execution.scheduled_fleet import ScheduledFleet
 from mrpbench_core.model.common.arrays import Bool, Float, Int16, Int32, frozen_array
+from mrpbench_core.model.common.intervals import overlapping
 from mrpbench_core.model.execution.motion import Mode, Motion
 from mrpbench_core.model.execution.orders import BatchOrders, FleetView, Orders
 from mrpbench_core.model.execution.state import State
@@ -110,14 +111,8 @@ _NONE = frozen_array(np.empty((0, 2)), "i4", 2)
 
 
 def _overlaps(pose: Float, level: Int16, radius: Float) -> Int32:
-    """The pairs i4[k,2] of robots whose footprints overlap: a sweep along x."""
-    order = np.argsort(pose[:, 0], kind="stable")
-    along = pose[order, 0]
-    count = np.searchsorted(along, along + 2 * radius.max(initial=0.0)) - np.arange(1, len(order) + 1)
-    count = np.maximum(count, 0)
-    one = np.repeat(np.arange(len(order)), count)
-    other = order[np.arange(len(one)) - np.repeat(np.cumsum(count) - count, count) + one + 1]
-    one = order[one]
+    """The pairs i4[k,2] of robots whose footprints overlap."""
+    one, other = overlapping(pose[:, 0], pose[:, 0] + 2 * radius.max(initial=0.0))
     x, y = pose[one, 0] - pose[other, 0], pose[one, 1] - pose[other, 1]
     touch = (np.hypot(x, y) - radius[one] - radius[other] < -1e-6) & (level[one] == level[other])
     return np.sort(np.column_stack([one[touch], other[touch]]), axis=1).astype(np.int32)

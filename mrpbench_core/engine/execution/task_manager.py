@@ -1,6 +1,6 @@
 """The tasks of an execution: takes them from their stream, has them assigned, and judges when they are done.
 
-What a robot has done is judged by its true pose, while the plan in force leads it there: it rests at the goal of its
+What a robot has done is judged by its true pose, while the current plan leads it there: it rests at the goal of its
 errand for the service time. Planners that support goal sequences plan over several errands, up to one with a service
 time or a wanted yaw, and the robot visits those before the last one without a stop.
 """
@@ -170,7 +170,7 @@ class TaskManager:
         Args:
             now: simulated seconds.
             arrived: bool[n]: the robot truly rests at the end of its path.
-            visited: i8[n] goals before the last one that the robot has truly visited, of the plan in force.
+            visited: i8[n] goals before the last one that the robot has truly visited, of the current plan.
         """
         for robot in np.flatnonzero(visited > self._planned.gone).tolist():
             while self._planned.gone[robot] < visited[robot]:
@@ -181,14 +181,14 @@ class TaskManager:
             job = self._board.current(robot)
             if job is None:
                 continue
-            if arrived[robot] and self._planned.in_force[robot] == ((job.task.index, job.errand),):
+            if arrived[robot] and self._planned.ahead[robot] == ((job.task.index, job.errand),):
                 self._rest(now, robot, job)
                 if robot in self._missed:
                     self._missed.remove(robot)
                     self._board.changed.add(robot)
             else:
                 self._board.leave(robot)
-                if arrived[robot] and len(self._planned.in_force[robot]) > 1:
+                if arrived[robot] and len(self._planned.ahead[robot]) > 1:
                     self._missed.add(robot)
                     self._board.changed.add(robot)
                     self._planned.drop(robot)
@@ -236,7 +236,7 @@ class TaskManager:
         new = [robot for robot in other if wanted[robot]]
         if new:
             return f"robot {new[0]} has another errand"
-        makes_room = any(ours and not path for ours, path in zip(wanted, self._planned.in_force, strict=True))
+        makes_room = any(ours and not path for ours, path in zip(wanted, self._planned.ahead, strict=True))
         return "a robot that made room may go on" if makes_room else None
 
     def destinations(self, now: float, held: Bool, restricted: Problem) -> Destinations:
@@ -270,7 +270,7 @@ class TaskManager:
         return self._places.destinations(resting + moving, self._head, self._failures, held)
 
     def adopt(self, destinations: Destinations) -> Int:
-        """Note that a plan to these goals is in force; return how many of each robot i8[n] are done since then."""
+        """Adopt a plan to these goals; return how many of each robot i8[n] are done since it was asked for."""
         self._planned.adopt(destinations.errands, self._is_done)
         self._held_back, self._failures = self._failures > 0, 0
         return self._planned.gone

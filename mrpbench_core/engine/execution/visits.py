@@ -18,7 +18,7 @@ class Visits:
 
     Args:
         problem: gives the goals; those before the last one count.
-        plan: in force.
+        plan: the current one.
         tolerance: metres from a goal within which a robot visits it.
     """
 

@@ -13,6 +13,8 @@ from mrpbench_core.files.removal import remove_tree
 
 ENDING_S = 10.0
 """Seconds that a supervisor may take to kill its jobs and end."""
+OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP})
+"""Signals that people and batch systems send, and that defects do not raise."""
 
 
 class WorkerDied(Exception):  # noqa: N818 - it says what happened

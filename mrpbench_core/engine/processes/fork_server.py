@@ -21,7 +21,6 @@ from typing import Any, NoReturn, Self
 
 import numpy as np
 
-from mrpbench_core.config.unpacking import Unpacking
 from mrpbench_core.engine.processes.channel import Channel, ClosedError, GarbledError, new_key
 from mrpbench_core.engine.processes.output import flush, redirect
 from mrpbench_core.engine.processes.process_tree import end_with_parent
@@ -117,7 +116,7 @@ def _serve(
     if job.get("step") == "drive":
         state.hooks = load_hooks()
         with suppress(Exception):  # the run reports it
-            state.unpack = Unpacking(job["parcel"])
+            state.unpack(job["parcel"])
     flush()
     server = os.getpid()
     while resident:

@@ -8,9 +8,8 @@ import time
 from collections.abc import Mapping
 from typing import Any
 
-from mrpbench_core.engine.processes.child import Child, WorkerDied
+from mrpbench_core.engine.processes.child import OUTSIDE, Child, WorkerDied
 from mrpbench_core.engine.processes.job import Failure, Job, JobOutcome
-from mrpbench_core.engine.processes.supervision import OUTSIDE
 from mrpbench_core.engine.record import RunRecord
 from mrpbench_core.model.runs.status import RunStatus, Stage
 

@@ -18,7 +18,7 @@ import attrs
 
 from mrpbench_core.api.metric import Metric
 from mrpbench_core.config.settings import RunConfig
-from mrpbench_core.config.unpacking import Settings, Unpack, unpack
+from mrpbench_core.config.unpacking import Unpacking
 from mrpbench_core.engine.drive.drive import Claims, drive
 from mrpbench_core.engine.json_values import jsonable
 from mrpbench_core.engine.judging import Prepared, keep, record_of
@@ -48,9 +48,7 @@ class State:
     """What the processes of a fork server begin with."""
 
     hooks: Hooks = attrs.field(factory=Hooks)
-    unpack: Unpack = unpack
-    settings_of: dict[tuple[str, str], Settings] = attrs.field(factory=dict)
-    """The last reader of settings, by folder and sources of local plugins."""
+    unpack: Unpacking = attrs.field(factory=Unpacking)
     config: RunConfig | None = None
     """The configuration of the job, once it is known, to name the component that fails."""
     instances: InstanceFolder | None = None
@@ -82,20 +80,9 @@ class State:
             return self.instance[1]
         return self.folder(file.parent).read(file.stem)
 
-    def settings(self, parcel: Mapping[str, Any], names: tuple[str, ...]) -> dict[str, Any]:
-        """Some settings of a configuration, without the plugins of the others.
-
-        Raises:
-            InputErrors: what is wrong with one of them.
-        """
-        key = parcel["folder"], str(parcel["sources"])
-        if key not in self.settings_of:
-            self.settings_of = {key: Settings(Path(parcel["folder"]), parcel["sources"])}
-        return self.settings_of[key]({name: parcel["config"][name] for name in names})
-
     def question(self, job: Job) -> tuple[Question, bool]:
         """What an instance is made of, and whether its scenario gives each robot a goal."""
-        settings = self.settings(job["parcel"], SETTINGS)
+        settings = self.unpack.settings(job["parcel"], SETTINGS)
         return Question(**settings, **job["facts"]["question"]), bool(settings["scenario"].gives_goals)
 
 
@@ -142,7 +129,7 @@ def _judge(job: Job, channel: Channel, state: State) -> Answer:
         message = f"what the process of the run says of it has another form: {error}"
         failure = Failure(status=RunStatus.CONTRACT_BROKEN, stage=Stage.METRICS, message=message)
         claims = Claims(failure=failure)
-    source = None if asked.task_seed is None else state.settings(job["parcel"], ("tasks",))["tasks"]
+    source = None if asked.task_seed is None else state.unpack.settings(job["parcel"], ("tasks",))["tasks"]
     record = record_of(asked, prepared, claims, paths, metrics, state.folder(paths.instances), source)
     keep(record, paths, job["keep"])
     return {"record": jsonable(record.message())}
@@ -180,7 +167,7 @@ def _metrics(job: Job, state: State, without: set[int]) -> Mapping[str, Metric]:
     config = job["parcel"]["config"]
     chosen = [entry for number, entry in enumerate(config["metrics"]) if number not in without]
     parcel = {**job["parcel"], "config": {"metrics": chosen}}
-    metrics: Mapping[str, Metric] = state.settings(parcel, ("metrics",))["metrics"]
+    metrics: Mapping[str, Metric] = state.unpack.settings(parcel, ("metrics",))["metrics"]
     return metrics
 
 

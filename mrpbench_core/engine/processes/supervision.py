@@ -13,6 +13,7 @@ from typing import Any
 import attrs
 
 from mrpbench_core.engine.processes.channel import Channel, ClosedError, GarbledError, new_key
+from mrpbench_core.engine.processes.child import OUTSIDE
 from mrpbench_core.engine.processes.fork_server import ForkServer
 from mrpbench_core.engine.processes.limits import LimitMonitor
 from mrpbench_core.engine.processes.machine import oom_kills
@@ -39,8 +40,6 @@ ANSWERS = {"prepare": ("prepared", "record"), "drive": ("claims",), "judge": ("r
 """The keys of the answers to each step, apart from failures."""
 FAILURES = frozenset({RunStatus.CONTRACT_BROKEN, RunStatus.OUT_OF_MEMORY, RunStatus.CRASHED})
 """The statuses that a process may give the run instead of an answer."""
-OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP})
-"""Signals that people and batch systems send, and that defects do not raise."""
 
 
 class Supervision:

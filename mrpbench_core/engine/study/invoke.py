@@ -1,4 +1,4 @@
-"""The Python API `run`."""
+"""`run`, the Python function that does the runs of a study."""
 
 from collections.abc import Mapping
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Plain data as bytes."""
+"""Plain data, such as a configuration, as bytes, to compare or copy it fast."""
 
 import marshal
 from typing import Any

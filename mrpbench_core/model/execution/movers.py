@@ -42,7 +42,7 @@ class Movers:
     level: Int16 = array("i2")
     """i2[m] index into `World.levels`; -1 = absent, with the pose at which it will come or has left."""
     arrivals: Int32 | None = None
-    """i4[m] number of goals that each has reached so far, -1 = has none; None = nobody has any."""
+    """i4[m] number of goals that each has reached so far, -1 = has none; None = none has any."""
 
 
 @attrs.frozen(kw_only=True)

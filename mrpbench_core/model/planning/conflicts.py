@@ -28,6 +28,7 @@ import numpy as np
 
 from mrpbench_core.model.common.arrays import Float, Int, Int32
 from mrpbench_core.model.common.geometry import segment_distance
+from mrpbench_core.model.common.intervals import overlapping
 from mrpbench_core.model.planning.roadmap import Roadmap
 
 TOLERANCE = 1e-9
@@ -86,15 +87,10 @@ def _near(roadmap: Roadmap, start: Int, end: Int, distance: float) -> tuple[Int,
 
 
 def _near_boxes(start: Float, end: Float, distance: float) -> tuple[Int, Int]:
-    """Ordered pairs of segments whose bounding boxes, grown by `distance`, meet; found by a sweep along x."""
+    """Ordered pairs of segments whose bounding boxes, grown by `distance`, meet, and each with itself."""
     low, high = np.minimum(start, end) - distance / 2, np.maximum(start, end) + distance / 2
-    order = np.argsort(low[:, 0], kind="stable")
-    until = np.searchsorted(low[order, 0], high[order, 0], side="right")
-    counts = until - np.arange(len(order))
-    left = np.repeat(np.arange(len(order)), counts)
-    right = left + np.arange(len(left)) - np.repeat(np.cumsum(counts) - counts, counts)
-    left, right = order[left], order[right]
+    left, right = overlapping(low[:, 0], high[:, 0])
     meet = (low[left, 1] <= high[right, 1]) & (low[right, 1] <= high[left, 1])
     left, right = left[meet], right[meet]
-    other = left != right
-    return np.concatenate([left, right[other]]), np.concatenate([right, left[other]])
+    same = np.arange(len(start))
+    return np.concatenate([same, left, right]), np.concatenate([same, right, left])

@@ -73,7 +73,7 @@ class Problem:
     commitments: Sequence[RobotPath] = attrs.field(default=(), converter=flat)
     """Released prefixes, one per robot (possibly empty), with which a new plan must begin; () = none."""
     remaining: Sequence[RobotPath] = attrs.field(default=(), converter=flat)
-    """What follows the commitments in the plan in force, one per robot, where the planner `reads_remaining`; () = none.
+    """What follows the commitments in the current plan, one per robot, where the planner `reads_remaining`; () = none.
     Commitments, each continued by it, are a plan without conflicts. Nothing has to be kept of it."""
     rules: Rules = Rules()
     horizon: int | None = None

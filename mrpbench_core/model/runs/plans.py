@@ -17,23 +17,23 @@ MOST_WAYPOINTS = 1_000_000
 
 @attrs.frozen(kw_only=True)
 class RecordedPlan:
-    """A plan that was in force during the execution."""
+    """A plan that was executed for a part of the execution."""
 
     time: float
-    """Simulated second since which it is in force."""
+    """Simulated second from which on it is executed."""
     routes: Sequence[Route]
     plan: Plan | None
     """None where nothing is known but the routes."""
 
 
 def spans(plans: Sequence[RecordedPlan], time: Float) -> list[tuple[RecordedPlan, slice]]:
-    """Return each plan with the samples, of `time` f8[T], at which it is in force."""
+    """Return each plan with the samples, of `time` f8[T], at which it is executed."""
     limits = [*np.searchsorted(time, [plan.time for plan in plans]).tolist(), len(time)]
     return [(plan, slice(begin, end)) for plan, begin, end in zip(plans, limits, limits[1:], strict=False)]
 
 
 def read_plans(context: RunContext, channels: Loaders) -> list[RecordedPlan]:
-    """Return the plans of an execution in their order, the first of them in force from second 0.
+    """Return the plans of an execution in their order, the first of them executed from second 0 on.
 
     They are all, or the last one, which begins with all that was driven before.
 

@@ -70,7 +70,7 @@ class RouteHistory:
         return tuple(map(_route, last)), self._plan(last)
 
     def plans(self) -> Iterator[tuple[float, Sequence[Route], Plan | None]]:
-        """Yield the second since which a plan is in force, its routes, and itself if it is known."""
+        """Yield the second from which on a plan is executed, its routes, and itself if it is known."""
         yield 0.0, self._context.routes, self._context.result.plan
         whole = list(self._first)
         for first, end in zip(self._plans.tolist(), self._bounds[1:].tolist(), strict=True):

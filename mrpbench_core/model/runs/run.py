@@ -38,7 +38,7 @@ class RunContext:
     period: float = 0.05
     """control period, simulated seconds."""
     latency: float = 0.0
-    """simulated seconds from the request for a new plan until it is in force."""
+    """simulated seconds from the request for a new plan until it is executed."""
     assigned: tuple[int, ...] = ()
     """Task of each robot, -1 = none."""
     planner_assigns: bool = False

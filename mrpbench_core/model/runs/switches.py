@@ -27,7 +27,7 @@ class Switch(NamedTuple):
 def switches(problem: Problem, plans: Sequence[RecordedPlan], time: Float, reached: Int) -> list[Switch]:
     """Return the switches of an execution, in the order of time.
 
-    The plan in force has robot i before robot j at a place if a type-2 edge leads from a move of i to a move of j
+    The current plan has robot i before robot j at a place if a type-2 edge leads from a move of i to a move of j
     (Hönig et al., RA-L 2019). The order is switched if j completed its move before i came to that place, whatever
     dispatcher allowed it. Consecutive places of the same two robots count once. Resources are left out.
 

@@ -66,7 +66,7 @@ class Waits:
 def explain_waits(context: RunContext, channels: Loaders, plans: Sequence[RecordedPlan]) -> Waits | None:
     """Return why each robot waits at each sample; None if progress, modes or poses were not recorded.
 
-    The reason is a dependency of the plan in force that is not met. Where nothing is known of that plan but its routes,
+    The reason is a dependency of the current plan that is not met. Where nothing is known of that plan but its routes,
     the reason is the robot that holds the next waypoint.
 
     Args:

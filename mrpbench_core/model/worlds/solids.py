@@ -2,7 +2,8 @@
 
 import numpy as np
 
-from mrpbench_core.model.common.arrays import Bool, Float, Int
+from mrpbench_core.model.common.arrays import Float
+from mrpbench_core.model.common.intervals import runs
 from mrpbench_core.model.worlds.occupancy import Occupancy
 from mrpbench_core.model.worlds.world import World
 
@@ -51,19 +52,9 @@ def raster_outline(occupancy: Occupancy) -> Float:
         below, above = grid[:-1, 1:-1], grid[1:, 1:-1]
         # Along +x of `grid` the left side is above; transposing swaps left and right.
         for border, forward in ((above & ~below, not across), (below & ~above, across)):
-            line, first, last = _runs(border)
+            line, first, last = runs(border)
             ends = [first, line, last, line] if forward else [last, line, first, line]
             parts.append(np.stack([ends[1], ends[0], ends[3], ends[2]] if across else ends, axis=1))
     cells = np.concatenate(parts).astype(float)
     outline: Float = cells * occupancy.resolution + np.tile(occupancy.origin, 2)
     return outline
-
-
-def _runs(mask: Bool) -> tuple[Int, Int, Int]:
-    """Return row, first column and last column + 1 of each maximal run of True in the rows of `mask`."""
-    padded = np.zeros((mask.shape[0], mask.shape[1] + 2), np.int8)
-    padded[:, 1:-1] = mask
-    change = np.diff(padded, axis=1)
-    line, first = np.nonzero(change == 1)
-    _, last = np.nonzero(change == -1)
-    return line, first, last

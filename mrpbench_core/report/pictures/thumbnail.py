@@ -5,7 +5,6 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float
-from mrpbench_core.model.runs.recording import pose_channel
 from mrpbench_core.model.worlds.solids import wall_boxes
 from mrpbench_core.model.worlds.world import World
 from mrpbench_core.report.pictures.movers import read_movers
@@ -42,14 +41,14 @@ def run_thumbnail(recording: Recording) -> str:
 
 def _read(recording: Recording) -> tuple[World, int, Float | None]:
     world = recording.context().world
-    name = pose_channel(recording.channels)
+    name = recording.pose_channel
     if name is None:
         return world, 0, None
     poses = recording.channel(name)[..., :2]
     if "level" not in recording.channels:
         return world, 0, poses
     levels = recording.channel("level")
-    level = int(np.bincount(levels.ravel()).argmax()) if levels.size else 0
+    level = int(np.bincount(levels.ravel()).argmax())
     return world, level, np.where((levels == level)[..., None], poses, np.nan)
 
 
@@ -74,7 +73,7 @@ def _svg(
     parts = [f'<path class="thing" d="{"".join(things)}"/><path class="wall" d="{"".join(solid)}"/>']
     if movers is not None:
         parts += [f'<polyline class="mover" points="{" ".join(points(way))}"/>' for way in _ways(movers) if len(way)]
-    if truth is not None and len(truth):
+    if truth is not None:
         parts += _paths(truth, points, list(goals))
     box = f"0 0 {width:.0f} {height:.0f}"
     return f'<svg class="thumbnail" viewBox="{box}" role="img" aria-label="map">{"".join(parts)}</svg>'

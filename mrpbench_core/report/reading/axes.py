@@ -36,7 +36,7 @@ def find_axes(configs: Sequence[dict[str, Any]], by: Sequence[str] | None = None
                 full = next((key for key in sorted(known) if key.endswith(f".{name}")), name)
                 hint = did_you_mean(full, sorted(known)) or suggest(name, _varying(flat), "options that vary:")
                 raise InputError(f"--by: no run has the option {name!r}", hint=hint)
-    varying = [key for key in _varying(flat) if by is None or _is_below(key, by)]
+    varying = [key for key in _varying(flat) if by is None or is_below(key, by)]
     keys = _without_implied(varying, flat)
     return _without_shared([{key: entry[key] for key in keys if key in entry} for entry in flat])
 
@@ -94,10 +94,11 @@ def _flat(config: dict[str, Any]) -> Axes:
     """Options by dotted key; `plugin` is "none" for a missing stage, unless it is missing because another stage is."""
     missing = (key for key, value in config.items() if value in (None, "none") and key not in EXECUTION)
     blocks = {key: {"plugin": "none"} for key in missing}
-    return {key: value for key, value in flatten(config | blocks).items() if not _is_below(key, NO_AXES)}
+    return {key: value for key, value in flatten(config | blocks).items() if not is_below(key, NO_AXES)}
 
 
-def _is_below(key: str, names: Sequence[str]) -> bool:
+def is_below(key: str, names: Sequence[str]) -> bool:
+    """Tell whether an option is one of these, or belongs to one."""
     return any(key == name or key.startswith(f"{name}.") for name in names)
 
 

@@ -1,4 +1,4 @@
-"""Writes many integers briefly."""
+"""Writes integers as ranges, for lists of seeds and repeats."""
 
 import numpy as np
 

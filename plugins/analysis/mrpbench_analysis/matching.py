@@ -46,7 +46,7 @@ def match(tracks: Sequence[Track], scenario: Scenario, ordered: bool = False) ->
             hint="choose and order them with --robots A,B,…, or name the robots in the scenario",
         )
     if len(scenario.tasks) > count or any(task.release > 0 for task in scenario.tasks):
-        raise InputError("tasks released over time, or more tasks than robots, cannot be told apart in a recording")
+        raise InputError("tasks released over time, or more tasks than robots, cannot be distinguished in a recording")
     tasks = [task.name for task in scenario.tasks]
     if tasks and len(set(tasks)) == len(tasks) and set(tasks) <= set(names):
         return Matched(

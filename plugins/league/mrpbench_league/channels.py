@@ -97,7 +97,7 @@ def _events(output: LorrOutput, seconds: float) -> Chunk:
             if task >= 0:
                 rows.append((time, ORDER["assigned"], task, "assigned", robot, -1))
             before = task
-    # An assignment of 2024 is in force for the errands of its step, one of 2026 for those after its tick.
+    # An assignment of 2024 holds for the errands of its step, one of 2026 for those after its tick.
     first = ("withdrawn", "assigned") if output.season == 2024 else ()
     rows.sort(key=lambda row: (row[0], row[3] not in first, *row[1:3]))
     return {

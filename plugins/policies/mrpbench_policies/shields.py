@@ -50,7 +50,7 @@ def pibt(state: FleetState, actions: Int, scores: Float, priority: Int) -> Int:
                 else:
                     stack = []  # all that push have their cells
                 break
-            else:  # no cell is left: it stays, and whoever pushes it tries the next one
+            else:  # no cell is left: it stays, and the robot that pushes it tries the next one
                 to[robot], taken[place[robot]] = place[robot], robot
                 stack.pop()
                 continue

@@ -4,7 +4,6 @@ import numpy as np
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.model.common.arrays import Bool, Float
-from mrpbench_core.model.runs.recording import pose_channel
 from mrpbench_core.store.recording import Recording
 from mrpbench_replay.packing import Packing
 
@@ -16,19 +15,14 @@ COUNTS = {"reached": None, "released": None, "mode": None, "level": 0}
 """Channels of integers, and a value without information: a channel with this value only is not packed."""
 
 
-def has_poses(recording: Recording) -> bool:
-    """Whether there is something to show; a run that ended before its execution has nothing."""
-    return pose_channel(recording.channels) is not None and len(recording.channel("time")) > 0
-
-
 def read_poses(recording: Recording) -> tuple[Float, Float]:
     """Return times f8[T] and poses f8[T,n,3] in metres and radians: the truth, or the estimates if there is none.
 
     Raises:
         InputError: the recording holds no samples.
     """
-    name = pose_channel(recording.channels)
-    if name is None or not len(recording.channel("time")):
+    name = recording.pose_channel
+    if name is None:
         raise InputError("the recording holds no poses", hint="a run that ended before its execution cannot be shown")
     return recording.channel("time"), recording.channel(name)
 

@@ -10,10 +10,7 @@ import pytest
 from mrpbench_scaffold.distribution import contents
 from mrpbench_scaffold.plugin import named
 
-pytestmark = [
-    pytest.mark.skipif("MRPBENCH_ALL_PAGES" not in os.environ, reason="`make pages` follows this page"),
-    pytest.mark.timeout(600),
-]
+pytestmark = pytest.mark.skipif("MRPBENCH_ALL_PAGES" not in os.environ, reason="`make pages` follows this page")
 PAGE = (Path(__file__).parents[3] / "docs/how-to/planner-external.md").read_text()
 CALLED = """\
 #!{python} -IS

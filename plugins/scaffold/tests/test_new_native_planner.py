@@ -73,7 +73,6 @@ def test_headers_that_the_page_names_exist(page):
 
 
 @pytest.mark.skipif(shutil.which("c++") is None, reason="no C++ compiler")
-@pytest.mark.timeout(600)
 def test_the_page_leads_to_a_planner_in_cpp_in_a_report(page, environment, tmp_path, monkeypatch):
     monkeypatch.setenv("SKBUILD_CMAKE_BUILD_TYPE", "Debug")  # compiles in a third of the time
     monkeypatch.setenv("PIP_NO_DEPS", "1")  # they are here, in the version of this checkout

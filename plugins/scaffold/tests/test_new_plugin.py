@@ -70,7 +70,6 @@ def test_what_is_written_passes_linter_and_types(folder):
         assert done.returncode == 0, done.stdout
 
 
-@pytest.mark.timeout(600)
 def test_a_new_distribution_is_found_checked_tested_and_gone_when_uninstalled(folder, environment, tmp_path):
     written = folder("metric", "acme")
     environment("pip", "install", "--quiet", "--no-deps", "--no-build-isolation", written, cwd=tmp_path)

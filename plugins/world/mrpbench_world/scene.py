@@ -4,7 +4,6 @@ import attrs
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Float
-from mrpbench_core.model.runs.recording import pose_channel
 from mrpbench_core.model.worlds.world import World
 from mrpbench_core.store.recording import Recording
 from mrpbench_world.solids import Leaf, PlacedRobot, Prism, elevations, floors_of, leaves_of, walls_of
@@ -66,8 +65,8 @@ def robots_of(recording: Recording) -> list[PlacedRobot]:
 
 def motion_of(recording: Recording) -> Motion | None:
     """The true poses of a recording, or estimates where the truth is unknown; None if nothing was executed."""
-    name = pose_channel(recording.channels)
-    if name is None or not len(recording.channel("time")):
+    name = recording.pose_channel
+    if name is None:
         return None
     pose = np.asarray(recording.channel(name), float)
     level = recording.channel("level") if "level" in recording.channels else np.zeros(pose.shape[:2], int)

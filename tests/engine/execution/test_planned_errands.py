@@ -18,13 +18,13 @@ def test_a_path_is_right_while_what_is_ahead_is_wanted_first():
     assert kept.visit(0) == A
     assert kept.others([(B, C)]) == []
     assert kept.others([(A, B)]) == [0]
-    assert kept.in_force == [(B,)]
+    assert kept.ahead == [(B,)]
     assert kept.gone.tolist() == [1]
 
 
 def test_what_was_done_while_the_planner_planned_is_not_ahead():
     kept = planned(A, B, C, done=lambda errand: errand == A)
-    assert kept.in_force == [(B, C)]
+    assert kept.ahead == [(B, C)]
     assert kept.gone.tolist() == [1]
     assert kept.others([(B, C)]) == []
 

@@ -33,3 +33,4 @@ def test_a_place_is_left_to_a_robot_that_overlaps_no_other_there(sizes, equal, v
                 if other != robot
             ]
             assert taken.leaves(robot, vertex) == all(apart)
+    assert taken.free(3).tolist() == [taken.leaves(3, vertex) for vertex in range(10)]

@@ -42,7 +42,7 @@ def test_a_dispatcher_that_takes_back():
 
 def test_a_dispatcher_that_releases_nothing():
     found = failed_checks(suite_for(session(update=lambda self, now, view: Orders(released=0 * self.length))))
-    assert "wait forever" in found["plans drain under delays"]
+    assert "wait forever" in found["plans drain under delays and robots do not meet"]
     assert "goes on with a new plan" in found
 
 
@@ -53,7 +53,7 @@ def test_a_dispatcher_that_claims_to_keep_robots_apart():
 
     found = failed_checks(suite_for(variant(Dispatcher, start=start)()))
     assert set(found) == {
-        "delays do not make robots meet",
+        "plans drain under delays and robots do not meet",
         "requests mutexes",
         "refuses plans through doors or requests the doors",
     }
@@ -68,7 +68,7 @@ def test_a_dispatcher_that_says_it_keeps_robots_apart():
 
     made = session()
     assert failed_checks(Suite()).keys() == {
-        "delays do not make robots meet",
+        "plans drain under delays and robots do not meet",
         "refuses or survives plans with conflicts",
         "requests mutexes",
         "refuses plans through doors or requests the doors",

@@ -1,5 +1,7 @@
 """The suites catch faults of planners: each plugin here has one and fails its check."""
 
+import time
+
 import attrs
 import numpy as np
 import pytest
@@ -143,6 +145,19 @@ def test_a_planner_that_ignores_its_budget(monkeypatch):
     with pytest.raises(Fault, match="still runs"):
         call(variant(Still, plan=sleeps)(), problem("a A"), wall_s=0.05)
     woken.set()
+
+
+def test_a_planner_that_is_late(monkeypatch):
+    monkeypatch.setattr("mrpbench_core.testing.suites.planner.LATE_S", 0.05)
+
+    def late(self, asked, budget):
+        until = time.process_time() + budget.wall_s + 0.1
+        while time.process_time() < until:
+            pass
+        return PlanResult(status=PlanStatus.TIMEOUT)
+
+    with pytest.raises(Fault, match=r"after its limit of 0\.2 s in the best of 3 calls"):
+        suite_for(variant(Still, plan=late)()).test_keeps_its_deadline()
 
 
 def test_a_planner_that_raises_is_located():

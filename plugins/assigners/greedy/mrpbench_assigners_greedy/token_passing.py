@@ -1,4 +1,4 @@
-"""The assigner of token passing: robots that become free choose among tasks whose places are nobody's destination.
+"""The assigner of token passing: robots that become free choose among tasks whose places are no robot's destination.
 
 Ma, Li, Kumar and Koenig, "Lifelong Multi-Agent Path Finding for Online Pickup and Delivery Tasks", AAMAS 2017: TP, and
 with task swaps TPTS.

@@ -1,4 +1,4 @@
-"""A node in a separate context, so that consecutive runs in one process do not affect each other."""
+"""The connection to ROS 2: a node with a context of its own, so that runs in one process do not affect each other."""
 
 import importlib.util
 import sys

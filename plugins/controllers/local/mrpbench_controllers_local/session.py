@@ -1,4 +1,4 @@
-"""A controller of a fleet, in C++."""
+"""The session of a local controller, which controls a fleet in C++."""
 
 from collections import Counter
 from collections.abc import Callable, Sequence

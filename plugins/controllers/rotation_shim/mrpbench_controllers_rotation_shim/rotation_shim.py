@@ -1,4 +1,4 @@
-"""The recipe: the rotation shim with the names and defaults of Nav2 (lyrical 1.5), around any controller."""
+"""The controller `rotation_shim` with the names and defaults of Nav2 (lyrical 1.5), around any controller."""
 
 from collections.abc import Sequence
 from pathlib import Path

@@ -216,9 +216,6 @@ class WalkingSession(CrowdSession):
         """The stream of a person for a goal: what happens to one shifts no draws of another."""
         return np.random.default_rng([self._seed % 2**64, person, int(number)])
 
-    def _leader(self, person: int) -> int:
-        return int(np.flatnonzero(self._group == self._group[person])[0])
-
     def _all_goals(self, world: World, start: Float) -> tuple[Goals, Goals]:
         """The goals of people who are not `given`, and of those who are."""
         recipe, (group, places), (begin, begin_own) = (
@@ -274,7 +271,7 @@ class WalkingSession(CrowdSession):
         return rotation
 
     def _starts(self, drawn: np.random.Generator, view: CrowdView) -> Float:
-        """Given places first, then those near which activities begin, or random ones; nobody overlaps a body.
+        """Given places first, then those near which activities begin, or random ones; no person overlaps a body.
 
         Raises:
             InputError: a given place is not free, or there is no room.

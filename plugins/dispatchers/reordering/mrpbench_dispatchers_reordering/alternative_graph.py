@@ -70,14 +70,14 @@ def alternative_graph(
 ) -> AlternativeGraph:
     """Build the graph of the moves that robots can begin within the horizon if they do not wait.
 
-    The order of those moves may change that begin before any robot could complete its moves in the graph, in the order
-    in force: then no move beyond the graph precedes one of them. So an order of them without cycles has none with the
-    rest of the plan either.
+    The order of those moves may change that begin before any robot could complete its moves in the graph, in the
+    current order: then no move beyond the graph precedes one of them. So an order of them without cycles has none with
+    the rest of the plan either.
 
     Args:
-        graph: has the order in force.
+        graph: has the current order.
         conflicts: of the problem.
-        visits: of the plan, at times of the order in force.
+        visits: of the plan, at times of the current order.
         state: how far robots are.
         horizon: seconds from now.
         limit: number of moves; the horizon is shortened where they are more.

@@ -5,7 +5,7 @@ multi-agent path finding plan execution", AAAI 2024. `bidirectional` decides onc
 new order is also verified like that of a plan (`mrpbench_core.dispatching`) before robots follow it.
 
 There the first robot to arrive always passes first. That gives up the planned waits of robots that come early, also
-where nobody is late: a robot enters an aisle a moment before one that comes the other way, which then waits until the
+where no robot is late: a robot enters an aisle a moment before one that comes the other way, which then waits until the
 whole aisle is free. Here the robots must be expected to arrive earlier, in sum, in the new order; `gain` says by how
 much.
 """

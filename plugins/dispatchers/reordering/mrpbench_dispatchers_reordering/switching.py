@@ -57,7 +57,7 @@ class SwitchingSession(OrderKeepingSession):
         """
         super().adopt(problem, plan, cut)
         self.moves = self.graph.moves
-        """The moves at times that imply the order in force."""
+        """The moves at times that imply the current order."""
         self.visits = visits_of(problem, self.moves)
         self.conflicts = Conflicts(problem)
         self.progress.use(problem, self.moves, cut)

@@ -1,4 +1,4 @@
-"""Events and contacts as diagnostics."""
+"""The messages with events and contacts, as diagnostics."""
 
 import math
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""The trajectories that controllers chose."""
+"""The messages (`nav_msgs/Path`) with the trajectories that controllers chose."""
 
 from functools import cache
 

@@ -1,4 +1,4 @@
-"""Shapes that every viewer draws."""
+"""Messages with shapes, `visualization_msgs/Marker`, which every viewer of ROS draws."""
 
 import colorsys
 

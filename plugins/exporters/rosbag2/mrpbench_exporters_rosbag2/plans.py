@@ -1,4 +1,4 @@
-"""Plans and goals of the robots."""
+"""The messages with plans and goals of the robots."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""Lidar scans."""
+"""The messages with lidar scans, `sensor_msgs/LaserScan`."""
 
 import numpy as np
 

@@ -1,4 +1,4 @@
-"""The occupancy map and the navigation graph."""
+"""The messages with the occupancy map and the navigation graph of a world."""
 
 import numpy as np
 

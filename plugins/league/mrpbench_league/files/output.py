@@ -38,7 +38,7 @@ class LorrOutput:
     tasks: tuple[tuple[int, int, tuple[int, ...]], ...] | None = None
     """Id, time of reveal (2023: 0), row and column of each errand."""
     schedule: tuple[tuple[tuple[int, int], ...], ...] | None = None
-    """For each robot: time and task, -1 = none; in force until the next entry."""
+    """For each robot: time and task, -1 = none; holds until the next entry."""
     finished: int | None = None
     """Tasks."""
     counter: int = 1

@@ -75,7 +75,7 @@ def follow_schedule(
     lines, done = len(problem.first) - 1, Done()
     sizes, first, errands = np.diff(problem.first), problem.first, problem.errands
     holder: dict[int, int] = {}
-    """The robot of each task in force."""
+    """The robot to which each task is assigned now."""
     progress: list[int] = []
     opener: list[int] = []
     task_of, goal = [-1] * cells.shape[1], np.full(cells.shape[1], -1)

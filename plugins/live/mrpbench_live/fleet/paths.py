@@ -35,9 +35,9 @@ class FleetPaths:
         self.released: Int = np.zeros(count, np.int64)
         """i8[n] moves that it may complete by now, and that cannot be taken back."""
         self.planned: Int = np.zeros(count, np.int64)
-        """i8[n] moves of each path that the plan in force has, too."""
+        """i8[n] moves of each path that the current plan has, too."""
         self.changed: set[int] = set()
-        """Robots whose path is not that of the plan in force."""
+        """Robots whose path is not that of the current plan."""
 
     def __len__(self) -> int:
         return len(self._edges)

@@ -45,7 +45,7 @@ class PlannedMoves:
 
     Args:
         problem: of the plan.
-        plan: in force.
+        plan: the current one.
         base: i8[n] moves of each path that the plan leaves out.
     """
 

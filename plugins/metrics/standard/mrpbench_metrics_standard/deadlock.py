@@ -8,8 +8,8 @@ import attrs
 import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value, option
+from mrpbench_core.model.common.intervals import runs
 from mrpbench_core.model.runs.run import FinishedRun
-from mrpbench_metrics_standard.periods import periods
 from mrpbench_metrics_standard.progress import blocked_intervals, progress, under_way
 from mrpbench_metrics_standard.samples import measurable, nulls
 
@@ -54,7 +54,7 @@ class Deadlock(Metric):
         blocked = blocked_intervals(time, along, going, self.window, self.distance)
         # Interval k ends at sample k; there is none before the first.
         stuck = np.stack([going.any(axis=1) & (blocked | ~going).all(axis=1)], axis=1)[1:]
-        _, first, after = periods(stuck)
+        _, first, after = runs(stuck.T)
         lasted = time[after] - time[first]
         return {
             "time_s": math.fsum(lasted),

@@ -61,7 +61,7 @@ class Delay(Metric):
             "switches",
             "",
             "neither",
-            "times that a robot passes a place before another one that the plan in force lets pass first; consecutive "
+            "times that a robot passes a place before another one that the current plan lets pass first; consecutive "
             "places of the same two robots count once",
         ),
     )

@@ -3,7 +3,7 @@
 import numpy as np
 
 from mrpbench_core.model.common.arrays import Bool, Float
-from mrpbench_metrics_standard.periods import periods
+from mrpbench_core.model.common.intervals import runs
 
 STILL_SPEED, STILL_TURN = 0.02, 0.05
 """m/s and rad/s below which a robot stands."""
@@ -24,7 +24,7 @@ def freezings(time: Float, twist: Float, may_drive: Bool, person: Float, robot: 
         robot: f8[T,n] metres to the nearest other robot, which is in the way if it is nearer than the person.
     """
     still = (np.abs(twist[..., 0]) < STILL_SPEED) & (np.abs(twist[..., 1]) < STILL_TURN)
-    _, first, after = periods(still & may_drive & (person < NEAR) & (person <= robot))
+    _, first, after = runs((still & may_drive & (person < NEAR) & (person <= robot)).T)
     lasted = time[np.minimum(after, len(time) - 1)] - time[first]
     long = lasted >= LEAST - 1e-9
     return int(long.sum()), float(lasted[long].sum())

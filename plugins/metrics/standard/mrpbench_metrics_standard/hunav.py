@@ -66,7 +66,7 @@ class Encounters:
 
 
 def hunav(time: Float, pose: Float, twist: Float, encounters: Encounters) -> dict[str, float | None]:
-    """Return the values of `COLUMNS` for one robot, None where there is nobody.
+    """Return the values of `COLUMNS` for one robot, None where there is no person.
 
     Args:
         time: f8[T] s.

@@ -9,9 +9,9 @@ import numpy as np
 
 from mrpbench_core.api import Column, Metric, Value, option
 from mrpbench_core.model.common.arrays import Bool
+from mrpbench_core.model.common.intervals import runs
 from mrpbench_core.model.runs.run import FinishedRun
 from mrpbench_metrics_standard.motion import steps, turns
-from mrpbench_metrics_standard.periods import periods
 from mrpbench_metrics_standard.progress import moves_among, under_way
 from mrpbench_metrics_standard.samples import measurable, nulls
 
@@ -62,7 +62,7 @@ class Stops(Metric):
         going = under_way(run)[:-1]
         standing: Bool = still & going
         moved = np.logical_or.accumulate(going & ~still, axis=0)
-        _, first, after = periods(standing & moved)
+        _, first, after = runs((standing & moved).T)
         lasted = np.where(standing, spent, 0.0)
         each = [math.fsum(column) for column in lasted.T]
         released = None

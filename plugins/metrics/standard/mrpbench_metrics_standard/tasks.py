@@ -1,4 +1,4 @@
-"""Tasks that come over time.
+"""The metric `tasks`: how tasks that come over time are served.
 
 Flow time and throughput are those of queueing theory: J. D. C. Little, "A Proof for the Queuing Formula: L = λW",
 Operations Research 9, 1961. Service time as in Ma, Li, Kumar and Koenig, "Lifelong Multi-Agent Path Finding for Online

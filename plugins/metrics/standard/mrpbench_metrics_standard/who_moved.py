@@ -28,7 +28,7 @@ def contacts_of(
     """Count the contacts of one robot; touches of a pair at most `pause` seconds apart are one contact.
 
     A motion is that since the sample before, with the other body at rest. A contact of the first sample counts for
-    nobody.
+    neither.
 
     Args:
         footprint: f8[k,2] metres, in the base frame.

@@ -160,9 +160,17 @@ class RouteTables:
         arrival: Float = np.empty((len(waypoint), 6))
         arrival[:, :2] = waypoint[:, :2]
         arrival[:, 2] = rules.waypoint_tolerance
-        arrival[goal, 2] = rules.xy_goal_tolerance
+        arrival[goal, 2] = np.minimum(rules.xy_goal_tolerance, self._leaving(rules.waypoint_tolerance))
         into = np.concatenate([np.full((1, 2), np.nan), heading[:-1]])[: len(heading)]  # NaN at each first corner
         arrival[:, 3:5] = into.take(row, axis=0)
         arrival[:, 5] = arrival[:, 3] * 0 + rules.passing_tolerance
         arrival[goal, 3:] = np.nan
         return arrival
+
+    def _leaving(self, least: float) -> Float:
+        """Metres f8[n] from its goal, `least` or more, within which each robot has cleared the place before: others may
+        wait for that, and a robot that rests there would let them wait for ever.
+        """
+        into_goal = self.first_corner + np.maximum(self.last_corner - 1, 0)
+        room: Float = np.sqrt(self.legs[into_goal, 4]) - self.clearing[into_goal, 2]
+        return np.where((self.last_corner == 0) | self.is_short[into_goal], np.inf, np.maximum(room, least))

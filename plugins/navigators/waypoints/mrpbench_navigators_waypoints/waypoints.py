@@ -70,7 +70,11 @@ class Waypoints(Navigator):
         help="when the end of the path is reached: by place and yaw, also standing, or by place alone",
     )
     xy_goal_tolerance: float | None = parameter(
-        0.10, help="distance within which the end of the path is reached (Nav2: 0.25)", unit="m", validator=gt(0)
+        0.10,
+        help="distance within which the end of the path is reached (Nav2: 0.25); smaller, down to the tolerance of "
+        "waypoints, where a robot within it would not have cleared the place before",
+        unit="m",
+        validator=gt(0),
     )
     yaw_goal_tolerance: float | None = parameter(
         0.25,

@@ -3,6 +3,7 @@ from itertools import pairwise
 
 import attrs
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from mrpbench_navigators_waypoints import Waypoints
@@ -122,6 +123,22 @@ def test_a_segment_no_longer_than_the_clearance_is_cleared_when_its_end_is_reach
     assert follow(short, along([(0, 0), (0.09, 0)])).cleared == 0
     follower = follow(short, along([(0, 0), (0.2, 0)]), released=1)
     assert (follower.reached, follower.cleared) == (1, 1)
+
+
+@pytest.mark.parametrize("points", [LINE, CORNER, [(0, 0), (0.36, 0)], [(0, 0), (0.4, 0), (0, 0), (0.4, 0)]])
+def test_a_robot_rests_only_where_it_has_cleared_the_place_before_its_goal(points):
+    rules = Waypoints(xy_goal_tolerance=0.25).arrival_rules
+    follower, robot = Follower(route(points), rules, CLEARANCE), iter(along(points))
+    while follower.fleet.reached[0] < len(points) - 1:
+        follower.update(*next(robot), 0.2, len(points) - 1)
+    assert follower.cleared == len(points) - 1
+
+
+def test_a_tolerance_of_the_goal_is_not_made_smaller_than_that_of_waypoints():
+    near = [*along([(0, 0), (0.8, 0)]), (1.0, 0, 0)]
+    for tolerance, reached in ((0.25, 3), (0.10, 2)):
+        rules = Waypoints(xy_goal_tolerance=0.25, waypoint_tolerance=tolerance).arrival_rules
+        assert follow(LINE, near, rules=rules).reached == reached
 
 
 def test_a_wait_is_reached_at_once_and_cleared_with_the_move_after_it():

@@ -44,7 +44,7 @@ class TokenPassing(Planner):
         return None if fault is None else f"needs well-formed tasks: {fault}"
 
     def plan(self, problem: Problem, budget: Budget) -> PlanResult:
-        """Plan the robots whose paths in force do not lead to their goals."""
+        """Plan the robots whose current paths do not lead to their goals."""
         reduced = problem
         if problem.remaining:
             remaining = Paths.of(problem.remaining)
@@ -59,7 +59,7 @@ class TokenPassing(Planner):
 
 
 def _leads_to_goals(problem: Problem) -> Bool:
-    """Tell of each robot, bool[n], whether its path in force leads to its goal, along edges that it may use."""
+    """Tell of each robot, bool[n], whether its current path leads to its goal, along edges that it may use."""
     paths = Paths.of(problem.remaining)
     if problem.commitments:
         paths = Paths.of(problem.commitments).then(paths)

@@ -120,7 +120,7 @@ def from_rest(problem: Problem) -> Problem:
 
 
 def _from_rest(problem: Problem) -> Sequence[RobotPath]:
-    """What remains of the paths in force, all as much later as robots need to come to rest, counted from then on."""
+    """What remains of the current paths, all as much later as robots need to come to rest, counted from then on."""
     if not problem.remaining:
         return ()
     paths, begin = Paths.of(problem.remaining), _rest(problem)

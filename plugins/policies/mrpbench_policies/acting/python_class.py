@@ -1,4 +1,4 @@
-"""Policies as Python classes."""
+"""Runs a policy that is a Python class, in this process."""
 
 from pathlib import Path
 from typing import Any

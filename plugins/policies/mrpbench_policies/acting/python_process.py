@@ -1,4 +1,4 @@
-"""Policies as Python classes in an environment of their own, because what they need does not fit ours."""
+"""Runs a policy that is a Python class by another interpreter, whose packages may differ from those of this one."""
 
 import pickle
 import subprocess

@@ -17,7 +17,7 @@ class Task:
 
     `nothing`: each robot goes to its goal and stays there. When all are there at once, each gets a reward of 1 and the
     episode terminates. `finish`: a robot that reaches its goal gets 1, terminates and leaves the grid. `restart`: it
-    gets 1, and another goal in the same step, drawn among the cells that it can reach; nobody terminates. All other
+    gets 1, and another goal in the same step, drawn among the cells that it can reach; no robot terminates. All other
     rewards are 0. After `steps` steps the episode is truncated.
     """
 

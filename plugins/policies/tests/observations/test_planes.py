@@ -1,4 +1,4 @@
-"""The planes of PRIMAL and SCRIMP, drawn once more cell by cell from their description."""
+"""The planes of PRIMAL and SCRIMP, drawn once more cell by cell, as their published environments do."""
 
 import math
 
@@ -22,16 +22,15 @@ def steps_to(goal, free):
     return steps
 
 
-def drawn(free, robots, goals, robot, radius):
-    """The planes of a robot, nearer cells first, and its vector; `robots` are cells, None for those that have left."""
-    row, column = robots[robot]
-    reach = range(-radius, radius + 1)
-    cells = [[(row + down, column + right) for right in reach] for down in reach]
+def drawn(free, robots, goals, robot, reach):
+    """The planes of a robot, nearer cells last, and its vector; `robots` are cells, None for those that have left."""
+    at = robots[robot]
+    cells = [[(at[0] + down, at[1] + right) for right in reach] for down in reach]
     near = {cell for line in cells for cell in line}
-    others = {i: cell for i, cell in enumerate(robots) if i != robot and cell in near}
+    others = [i for i, cell in enumerate(robots) if i != robot and cell in near]
 
     def inside(goal):
-        return tuple(max(at - radius, min(at + radius, to)) for at, to in zip((row, column), goal, strict=True))
+        return tuple(max(here + reach[0], min(here + reach[-1], to)) for here, to in zip(at, goal, strict=True))
 
     shown = {inside(goals[i]) for i in others}
     steps = steps_to(goals[robot], free)
@@ -40,18 +39,20 @@ def drawn(free, robots, goals, robot, radius):
         to = cell[0] + AROUND[action][0], cell[1] + AROUND[action][1]
         return cell in steps and to in steps and steps[to] < steps[cell]
 
-    planes = [[[nearer(cell, action) for cell in line] for line in cells] for action in range(4)]
-    planes.append([[cell not in free for cell in line] for line in cells])
-    planes.append([[cell in others.values() for cell in line] for line in cells])
-    planes.append([[cell == goals[robot] for cell in line] for line in cells])
-    planes.append([[cell in shown for cell in line] for line in cells])
-    away = [to - at for at, to in zip((row, column), goals[robot], strict=True)]
+    planes = [
+        [[cell in robots for cell in line] for line in cells],
+        [[cell == goals[robot] for cell in line] for line in cells],
+        [[cell in shown for cell in line] for line in cells],
+        [[cell not in free for cell in line] for line in cells],
+        *([[nearer(cell, action) for cell in line] for line in cells] for action in range(4)),
+    ]
+    away = [to - here for here, to in zip(at, goals[robot], strict=True)]
     distance = math.hypot(*away)
     return np.array(planes, float), [*(it / (distance or 1) for it in away), distance]
 
 
 @pytest.mark.parametrize("radius", [1, 3, 6])
-def test_planes_are_those_of_the_papers(radius):
+def test_planes_are_those_of_the_published_environments(radius):
     generator = np.random.default_rng(radius)
     blocked = generator.random((2, 9, 11)) < 0.25
     maps = Maps(blocked, radius)
@@ -66,10 +67,11 @@ def test_planes_are_those_of_the_papers(radius):
             active = state.active[environment]
             robots = [tuple(cell) if there else None for cell, there in zip(cells[environment], active, strict=True)]
             goals = list(map(tuple, goal[environment].tolist()))
-            planes, vector = drawn(free[environment], robots, goals, robot, radius)
             row = environment * 12 + robot
+            planes, _ = drawn(free[environment], robots, goals, robot, range(-radius, radius + 1))
             np.testing.assert_array_equal(scrimp["observation"][row], planes)
-            np.testing.assert_array_equal(primal["observation"][row], planes[4:])
+            planes, vector = drawn(free[environment], robots, goals, robot, range(-radius, radius))
+            np.testing.assert_array_equal(primal["observation"][row], planes[:4])
             np.testing.assert_allclose(primal["goal"][row], vector, rtol=1e-6)
             np.testing.assert_array_equal(scrimp["goal"][row], primal["goal"][row])
         state.move(soft(state, state.wishes(generator.integers(0, 5, (2, 12)))))
@@ -80,4 +82,4 @@ def test_a_robot_at_its_goal_has_no_direction():
     there = maps.places(np.array([[(0, 1)]]))
     observed = Primal(1).observe(FleetState.at(maps, there, there))
     assert observed["goal"].tolist() == [[0.0, 0.0, 0.0]]
-    assert observed["observation"][0, 2].tolist() == [[0, 0, 0], [0, 1, 0], [0, 0, 0]]
+    assert observed["observation"][0, 1].tolist() == [[0, 0], [0, 1]]

@@ -1,4 +1,4 @@
-"""Draws a share of the runs by their ids and a key, so that nobody chooses them."""
+"""Draws a share of the runs by their ids and a key, so that neither publisher nor reader chooses them."""
 
 import math
 from collections.abc import Iterable

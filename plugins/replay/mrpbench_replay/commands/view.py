@@ -11,12 +11,11 @@ from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.printing import file_name
 from mrpbench_core.store.recording import Recording
-from mrpbench_replay.motion import has_poses
 from mrpbench_replay.pair import pair_template
 from mrpbench_replay.write_page import template
 from mrpbench_replay.write_replay import write_replay, write_replays
 
-__all__ = ["configure", "has_poses", "run", "write_replay", "write_replays", "wrote", "wrote_pair"]
+__all__ = ["configure", "run", "write_replay", "write_replays", "wrote", "wrote_pair"]
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

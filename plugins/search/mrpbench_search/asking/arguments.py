@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, redirect_stdout
 from pathlib import Path
 
-from mrpbench_core.cli.input.arguments import add_configuration, read_options, split_words
+from mrpbench_core.cli.input.arguments import add_configuration, add_executor, read_options, split_words
 from mrpbench_core.cli.output.progress import Printed
 from mrpbench_core.engine.processes.slots import slots_of_this_process
 from mrpbench_core.engine.study.options import StudyOptions
@@ -30,11 +30,7 @@ def add_search(parser: argparse.ArgumentParser, folder: str) -> None:
 def add_execution(parser: argparse.ArgumentParser, folder: str) -> None:
     """Declare how runs are done; see `add_search`."""
     parser.add_argument("--out", metavar="DIR", help=f"results folder (default: {folder})")
-    parser.add_argument("--workers", type=int, default=1, metavar="N", help="number of runs at a time (default: 1)")
-    parser.add_argument(
-        "--executor", default="processes", metavar="NAME", help="executor of the runs (default: %(default)s)"
-    )
-    parser.add_argument("--executor-option", action="append", default=[], metavar="K=V", help="option of the executor")
+    add_executor(parser)
     parser.add_argument(
         "--shard", metavar="i/n", help="do only part i of n of each step, counted from 0; give each part its own --out"
     )

@@ -60,10 +60,10 @@ def packed_runs(
 ) -> dict[str, Any]:
     """In a worker process: make runs of canonical configurations; see `mrpbench_core.engine.loading.runs`."""
     folder, shared = Path(parcel["folder"]), Shared()
-    unpacking = Unpacking({**parcel, "config": configs[0]})
+    unpack = Unpacking()
     runs = []
     for plain, axes in zip(configs, labels, strict=True):
-        config = unpacking({**parcel, "config": plain})
+        config = unpack({**parcel, "config": plain})
         components = tuple(components_in(config))
         runs.append(
             RunPoint(

@@ -6,7 +6,7 @@ import attrs
 
 from mrpbench_core.engine.loading.runs import StudyRun, StudyRuns
 from mrpbench_core.files.errors import InputError
-from mrpbench_core.report.reading.axes import Axes, name_axes
+from mrpbench_core.report.reading.axes import Axes, is_below, name_axes
 from mrpbench_search.asking.configurations import with_axes
 
 CHOICES = ("planner", "assigner", "dispatcher", "navigator", "controller", "localizer")
@@ -44,7 +44,7 @@ def find_candidates(study: StudyRuns, choices: Sequence[str] = CHOICES) -> list[
     """
     settings: dict[str, Setting] = {}
     for axes, points in with_axes(study):
-        chosen = {key: value for key, value in axes.items() if _is_of(key, choices)}
+        chosen = {key: value for key, value in axes.items() if is_below(key, choices)}
         others = {key: value for key, value in axes.items() if key not in chosen}
         setting = settings.setdefault(repr(others), Setting(name=name_axes(others), axes=others))
         by_seed: dict[int, list[StudyRun]] = {}
@@ -65,7 +65,3 @@ def find_candidates(study: StudyRuns, choices: Sequence[str] = CHOICES) -> list[
                 hint=f"--candidates names other options; these vary: {varied}" if varied else "list some in the matrix",
             )
     return list(settings.values())
-
-
-def _is_of(key: str, choices: Sequence[str]) -> bool:
-    return any(key == name or key.startswith(f"{name}.") for name in choices)

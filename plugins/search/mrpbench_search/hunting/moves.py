@@ -1,15 +1,15 @@
 """Moves of a hunt: new cases, and cases near another one.
 
 Robots that never meet break nothing. New cases therefore lead pairs of robots along one edge in opposite directions at
-the same time, or all robots through one vertex. The edge begins at any vertex, or, more often, at one of a kind
-(`Space.kinds`): all kinds have the same probability, so that a junction of which there is one is tried as often as
-those of which there are many. In half of the new cases all pairs meet at one vertex. In a third of the new cases one
-robot of each pair is led through the goal of the other one instead. Tasks over time belong to no robot: of these some
-that follow one another get goals near one vertex at about the same time. Of several cases of one sort, the one is taken
-in which most robots would meet if they drove alone (`meetings`).
+the same time, or all robots through one vertex, and some robots through the start or goal of another one. The edge
+begins at any vertex, or, more often, at one of a kind (`Space.kinds`): all kinds have the same probability, so that a
+junction of which there is one is tried as often as those of which there are many. In half of the new cases all pairs
+meet at one vertex. Tasks over time belong to no robot: of these some that follow one another get goals near one vertex
+at about the same time. Of several cases that moves make, the one is taken in which most robots would meet if they drove
+alone (`meetings`).
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import attrs
@@ -29,8 +29,6 @@ EXACT = 1e-3
 """Ticks by which equal ways may differ."""
 SAME_TIME = 1.0
 """Durations of an edge by which two robots that meet there may differ, as they drive alone."""
-THROUGH = 1 / 3
-"""Share of the new cases in which robots are led through goals."""
 LATER = 2.0
 """Mean or standard deviation in seconds of the time between tasks that move to about the same time."""
 NEAR = 6
@@ -62,42 +60,31 @@ class Moves:
 
     def new(self) -> Case:
         """Return a case that is near no other one: a draw in which robots meet."""
-        if self.first.stream is not None:
-            way = self._gathered
-        else:
-            way = self._through_goals if self.rng.random() < THROUGH else self._at_vertices
-        return max([self._new(way) for _ in range(SEVERAL)], key=lambda case: meetings(self.space, case))
+        return max([self._new() for _ in range(SEVERAL)], key=lambda case: meetings(self.space, case))
 
     def near(self, case: Case) -> Case:
         """Return a case that differs from another one in one or a few ways."""
         return max([self._near_to(case) for _ in range(SEVERAL // 2)], key=lambda it: meetings(self.space, it))
 
-    def _new(self, way: Callable[[Case], Case]) -> Case:
-        case = way(self.drawn(int(self.rng.integers(len(self.space.scenarios)))))
+    def _new(self) -> Case:
+        case = self.drawn(int(self.rng.integers(len(self.space.scenarios))))
+        order = self.rng.permutation(case.robots).tolist()
+        vertex = self._vertex() if self.rng.random() < 0.5 else None
+        if case.stream is not None:
+            case = self._gathered(case)
+        elif case.robots > 2 and self.rng.random() < 0.5:
+            case = self._crossing(case, order, self._vertex() if vertex is None else vertex)
+        else:
+            for pair in zip(order[::2], order[1::2], strict=False):
+                case = self._meeting(case, *pair, vertex)
+        if case.robots > 1 and case.stream is None and self.rng.random() < 0.25:
+            case = self._passing(case, *order[:2])
         events = (
             event if event.get("at") is None else event | self._elsewhere(case, event | {"place": None})
             for event in case.events
         )
         case = attrs.evolve(case, events=tuple(events))
         return self._other_people(case)
-
-    def _at_vertices(self, case: Case) -> Case:
-        vertex = self._vertex() if self.rng.random() < 0.5 else None
-        if case.robots > 2 and self.rng.random() < 0.5:
-            order = self.rng.permutation(case.robots).tolist()
-            return self._crossing(case, order, self._vertex() if vertex is None else vertex)
-        for pair in self._pairs(case):
-            case = self._meeting(case, *pair, vertex)
-        return case
-
-    def _through_goals(self, case: Case) -> Case:
-        for pair in self._pairs(case):
-            case = self._through_goal(case, *pair)
-        return case
-
-    def _pairs(self, case: Case) -> Iterable[tuple[int, int]]:
-        order = self.rng.permutation(case.robots).tolist()
-        return zip(order[::2], order[1::2], strict=False)
 
     def _near_to(self, case: Case) -> Case:
         for _ in range(int(self.rng.geometric(0.6))):
@@ -111,7 +98,7 @@ class Moves:
             moves.append(self._moved_goal)
         if case.robots > 1 and case.stream is None:
             moves += [self._exchanged, lambda it: self._meeting(it, *self._two(it.robots))]
-            moves.append(lambda it: self._through_goal(it, *self._two(it.robots)))
+            moves.append(lambda it: self._passing(it, *self._two(it.robots)))
         if case.stream is not None and len(case.stream) > 1:
             moves += [self._other_times, self._other_order, self._gathered]
         if case.events:
@@ -155,39 +142,6 @@ class Moves:
                 return found
         return case
 
-    def _through_goal(self, case: Case, one: int, other: int) -> Case:
-        """Lead a robot, often from far away, through the goal of another one, which starts near it and stands there."""
-        if other >= len(case.tasks):
-            return case
-        space = self.space
-        task = case.tasks[other]
-        end = space.place_of(task.goals[-1], int(task.levels[-1]))
-        to = space.distance[:, space.vertex[end]]
-        able = np.flatnonzero(np.isfinite(to) & (to > 0))
-        near = able[np.argsort(to[able], kind="stable")]
-        for _ in range(TRIES if len(near) else 0):
-            start = self._near(near[::-1]) if self.rng.random() < 0.5 else int(self.rng.choice(near))
-            goal = self._beyond(start, int(space.vertex[end]), end)
-            if goal is None:
-                continue
-            found = self._placed(self._placed(case, one, start, goal), other, self._near(near), None)
-            if self._has_room(found):
-                return found
-        return case
-
-    def _gathered(self, case: Case) -> Case:
-        """Let tasks over time that follow one another have goals near one vertex, at about the same time."""
-        first = int(self.rng.integers(len(case.tasks)))
-        to = self.space.distance[:, self._vertex()]
-        able = np.flatnonzero(np.isfinite(to))
-        near = able[np.argsort(to[able], kind="stable")]
-        tasks, release = list(case.tasks), case.tasks[first].release
-        for index in range(first, min(first + case.robots, len(tasks))) if len(near) else ():
-            row = int(self.rng.integers(len(tasks[index].goals)))
-            tasks[index] = _at(self._to(tasks[index], row, self._near(near)), release)
-            release += float(self.rng.exponential(LATER))
-        return case.with_tasks(tuple(tasks))
-
     def _crossing(self, case: Case, robots: Sequence[int], vertex: int) -> Case:
         """Lead robots through one vertex at about the same time, as they drive alone, so that they wait for each other.
 
@@ -209,6 +163,35 @@ class Moves:
                     case = found
                     break
         return case
+
+    def _passing(self, case: Case, one: int, other: int) -> Case:
+        """Lead a robot through the place at which another one starts, or ends."""
+        space, scenario = self.space, case.scenario
+        pose, level = scenario.start[other], scenario.start_level[other]
+        if other < len(case.tasks) and self.rng.random() < 0.5:
+            pose, level = case.tasks[other].goals[-1], case.tasks[other].levels[-1]
+        vertex = int(space.vertex[space.place_of(pose, int(level))])
+        able = np.flatnonzero(np.isfinite(space.distance[:, vertex]) & (space.distance[:, vertex] > 0))
+        for start in self.rng.permutation(able).tolist()[:TRIES]:
+            goal = self._beyond(start, vertex, start)
+            if goal is not None and space.vertex[goal] != vertex:
+                found = self._placed(case, one, start, goal)
+                if self._has_room(found):
+                    return found
+        return case
+
+    def _gathered(self, case: Case) -> Case:
+        """Let tasks over time that follow one another have goals near one vertex, at about the same time."""
+        first = int(self.rng.integers(len(case.tasks)))
+        to = self.space.distance[:, self._vertex()]
+        able = np.flatnonzero(np.isfinite(to))
+        near = able[np.argsort(to[able], kind="stable")]
+        tasks, release = list(case.tasks), case.tasks[first].release
+        for index in range(first, min(first + case.robots, len(tasks))) if len(near) else ():
+            row = int(self.rng.integers(len(tasks[index].goals)))
+            tasks[index] = _at(self._to(tasks[index], row, self._near(near)), release)
+            release += float(self.rng.exponential(LATER))
+        return case.with_tasks(tuple(tasks))
 
     def _vertex(self) -> int:
         """A vertex at which robots meet."""

@@ -18,6 +18,12 @@ CLEARANCE = 0.01
 """metres between the floor and the body of a robot without a URDF."""
 PLAY = 0.0005
 """metres between floor and casters when a robot is level, so that its wheels bear the weight."""
+ROTOR = 0.5
+"""Inertia of a motor behind its gear, as a share of that of the whole mass at the rim of its wheel."""
+MOTOR_LAG = 0.01
+"""seconds in which a motor that bears the whole mass approaches its speed, unless its torque is at its limit."""
+WHEEL_CONTACT = (0.02, 1.0), (0.999, 0.999, 0.001, 0.5, 2.0)
+"""Time constant (s) and damping ratio, and impedance of MuJoCo: so stiff that speeds err by less than a thousandth."""
 _WHEEL_SHARE = 0.1
 """Mass of one wheel as a share of such a robot's, as in the TurtleBot3's model for Gazebo; light wheels err more."""
 _GRAVITY = 9.81

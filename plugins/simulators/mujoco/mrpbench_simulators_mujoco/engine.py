@@ -1,4 +1,4 @@
-"""A scene in motion, by MuJoCo."""
+"""Moves a scene by MuJoCo, step by step."""
 
 import mujoco
 import numpy as np

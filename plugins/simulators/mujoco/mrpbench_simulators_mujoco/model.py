@@ -1,4 +1,4 @@
-"""Builds the model of a scene.
+"""Builds the MuJoCo model of a scene.
 
 Contacts are decided by bits: what stands alone touches robots only, robots touch everything, wheels the floor. Robots'
 bodies have no friction; wheels have the Coulomb friction of rubber on a floor. Contacts are as stiff as the physics
@@ -11,7 +11,7 @@ import math
 import attrs
 import mujoco
 import numpy as np
-from mrpbench_simulators_bodies.body import RobotBody, Shape, prism
+from mrpbench_simulators_bodies.body import MOTOR_LAG, ROTOR, WHEEL_CONTACT, RobotBody, Shape, prism
 from mrpbench_simulators_bodies.engine import BURIED
 from mrpbench_simulators_bodies.scene import HEIGHT, MOVER_HEIGHT, Scene
 
@@ -23,14 +23,8 @@ FREE, PLANAR = (9, 8), (3, 3)
 """Coordinates and speeds of a robot: a free joint and two wheels; two slides and a hinge."""
 _GROUND, _ROBOT, _THING = 1, 2, 4
 """Bits of contacts."""
-_WHEEL_CONTACT = ([0.02, 1.0], [0.999, 0.999, 0.001, 0.5, 2.0])
-"""Time constant and damping ratio, and impedance: stiff enough that speeds err by less than a thousandth."""
 _BODY_CONTACT = ([0.03, 1.0], [0.6, 0.9, 0.003, 0.5, 2.0])
-"""Softer, so that robots that push a wall with slipping wheels do not chatter."""
-_ROTOR = 0.5
-"""Inertia of a motor behind its gear, as a share of that of the whole mass at the rim of its wheel."""
-_MOTOR_LAG = 0.01
-"""seconds in which a motor that bears the whole mass approaches its speed, unless its torque is at its limit."""
+"""As `WHEEL_CONTACT`, but softer, so that robots that push a wall with slipping wheels do not chatter."""
 _KINDS = {
     "box": mujoco.mjtGeom.mjGEOM_BOX,
     "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
@@ -134,15 +128,15 @@ class _Builder:
             )
             joint = f"wheel_{robot}_{side}"
             turning.add_joint(
-                name=joint, type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0, 1, 0], armature=_ROTOR * mass * wheel.radius**2
+                name=joint, type=mujoco.mjtJoint.mjJNT_HINGE, axis=[0, 1, 0], armature=ROTOR * mass * wheel.radius**2
             )
-            solref, solimp = _WHEEL_CONTACT
+            solref, solimp = WHEEL_CONTACT
             self._geom(
                 turning, FLOOR, type=_KINDS["sphere"], size=[wheel.radius, 0, 0], condim=3, contype=0,
                 conaffinity=_GROUND, priority=1, solref=solref, solimp=solimp,
             )  # fmt: skip
             motor = self._spec.add_actuator(target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
-            motor.set_to_velocity(kv=mass / 2 * wheel.radius**2 / _MOTOR_LAG)
+            motor.set_to_velocity(kv=mass / 2 * wheel.radius**2 / MOTOR_LAG)
             motor.forcelimited = True
             motor.forcerange = [-body.torque, body.torque]
 

@@ -1,4 +1,4 @@
-"""A scene in motion, by PyBullet."""
+"""Moves a scene by PyBullet, step by step."""
 
 import math
 

@@ -1,4 +1,4 @@
-"""Libraries that only some formats need."""
+"""Imports libraries that only some formats need, or says how to install them."""
 
 import importlib
 from types import ModuleType

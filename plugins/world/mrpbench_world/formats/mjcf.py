@@ -7,18 +7,12 @@ second), and a site `robot_i_lidar`. Leaves of doors have a joint that is 0 when
 from xml.etree import ElementTree as ET
 
 import numpy as np
+from mrpbench_simulators_bodies.body import MOTOR_LAG, ROTOR, WHEEL_CONTACT
 
 from mrpbench_world.formats.meshes import mesh
 from mrpbench_world.formats.xml import numbers, opaque
 from mrpbench_world.scene import Scene
 from mrpbench_world.solids import BLUE, GREY, LEAF_MASS, STEP_S, WOOD, Leaf, PlacedRobot, Prism
-
-_ROTOR = 0.5
-"""Inertia of a motor behind its gear, as a share of that of the whole mass at the rim of its wheel."""
-_MOTOR_LAG_S = 0.01
-"""Seconds in which a motor that bears the whole mass approaches its speed."""
-_STIFF = {"solref": "0.02 1", "solimp": "0.999 0.999 0.001 0.5 2"}
-"""Contacts of wheels as stiff as those of the simulator `mujoco`, so that speeds err by less than a thousandth."""
 
 
 def write_mjcf(scene: Scene) -> str:
@@ -79,14 +73,15 @@ def _robot(world: ET.Element, asset: ET.Element, actuator: ET.Element, robot: Pl
         _geom(body, asset, named, BLUE, **glides)
     for middle, radius in robot.casters():
         ET.SubElement(body, "geom", {"type": "sphere", "size": numbers(radius), "pos": numbers(*middle)} | glides)
+    solref, solimp = (numbers(*values) for values in WHEEL_CONTACT)
     for side, rolling in zip(("left", "right"), rigid.wheels, strict=True):
         wheel = ET.SubElement(body, "body", name=f"{robot.name}_{side}_wheel", pos=numbers(*rolling.place))
         joint = f"{robot.name}_{side}_joint"
-        rotor = numbers(_ROTOR * model.mass * rolling.radius**2)
+        rotor = numbers(ROTOR * model.mass * rolling.radius**2)
         ET.SubElement(wheel, "joint", name=joint, type="hinge", axis="0 1 0", armature=rotor)
         sphere = {"type": "sphere", "size": numbers(rolling.radius), "mass": numbers(rolling.mass)}
-        ET.SubElement(wheel, "geom", sphere | {"priority": "1"} | _STIFF)
-        motor = {"kv": numbers(model.mass / 2 * rolling.radius**2 / _MOTOR_LAG_S)}
+        ET.SubElement(wheel, "geom", sphere | {"priority": "1", "solref": solref, "solimp": solimp})
+        motor = {"kv": numbers(model.mass / 2 * rolling.radius**2 / MOTOR_LAG)}
         limit = {"forcerange": numbers(-rigid.torque, rigid.torque)}
         ET.SubElement(actuator, "velocity", {"name": f"{robot.name}_{side}", "joint": joint} | motor | limit)
     if model.lidar is not None:

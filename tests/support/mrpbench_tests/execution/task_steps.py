@@ -47,10 +47,10 @@ class TaskSteps:
         self.at: Int = problem.start.astype(np.int64)
         """i8[n] where each robot is."""
         self._way = self.at[None]
-        """i8[k,n] where each robot is in this tick and the next ones, by the plan in force."""
+        """i8[k,n] where each robot is in this tick and the next ones, by the current plan."""
         self._paths: Paths | None = None
         self._since = 0
-        """The tick at which the plan in force began."""
+        """The tick at which the current plan began."""
 
     def step(self, stopped: Bool | None = None, given_up: Bool | None = None, deaf: bool = False) -> None:
         """Let one tick pass.
@@ -100,7 +100,7 @@ class TaskSteps:
         return None
 
     def _reached(self) -> Int32:
-        """The segments i4[n] of the plan in force that are over."""
+        """The segments i4[n] of the current plan that are over."""
         robots = len(self.problem)
         if self._paths is None:
             return np.zeros(robots, np.int32)
@@ -108,7 +108,7 @@ class TaskSteps:
         return np.bincount(self._paths.robot[over], minlength=robots).astype(np.int32)
 
     def _rest(self, paths: Paths) -> Paths:
-        """What is left of the plan in force, counted from now on."""
+        """What is left of the current plan, counted from now on."""
         gone = self.tick - self._since
         rest = paths.part(self._reached(), paths.size)
         return attrs.evolve(rest, enter=np.maximum(rest.enter - gone, 0), leave=rest.leave - gone)

@@ -1,4 +1,4 @@
-"""Rules, and what was found of each."""
+"""The rules that `mrpbench check-vda5050` checks, and its finding on each."""
 
 from collections.abc import Mapping
 from typing import Any

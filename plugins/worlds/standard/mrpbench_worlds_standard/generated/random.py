@@ -1,4 +1,4 @@
-"""Cells blocked at random."""
+"""The world `generated_random`: cells blocked at random."""
 
 import attrs
 import numpy as np

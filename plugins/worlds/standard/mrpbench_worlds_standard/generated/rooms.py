@@ -1,4 +1,4 @@
-"""Square rooms joined by doors."""
+"""The world `generated_rooms`: square rooms joined by doors."""
 
 import attrs
 import numpy as np

@@ -1,4 +1,4 @@
-"""Shelves in rows."""
+"""The world `generated_warehouse`: shelves in rows."""
 
 import attrs
 
