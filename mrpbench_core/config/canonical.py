@@ -15,7 +15,7 @@ import attrs
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.config.content import content_hash
-from mrpbench_core.config.settings import NOT_IDENTIFYING, RunConfig
+from mrpbench_core.config.settings import RunConfig
 from mrpbench_core.config.shared import Shared
 from mrpbench_core.plugins.local import source_of
 from mrpbench_core.plugins.provenance import kind_class
@@ -95,19 +95,3 @@ def json_scalar(value: Any) -> Any:
     if isinstance(value, float) and math.isinf(value):
         return ".inf" if value > 0 else "-.inf"
     return value
-
-
-def _work(plain: Mapping[str, Any]) -> Any:
-    identifying = {key: _by_content(value) for key, value in plain.items() if key not in NOT_IDENTIFYING}
-    for group, _, option in (key.partition(".") for key in NOT_IDENTIFYING):
-        if option and isinstance(identifying.get(group), dict):
-            identifying[group] = {key: value for key, value in identifying[group].items() if key != option}
-    return identifying
-
-
-def _by_content(value: Any) -> Any:
-    if isinstance(value, Mapping):
-        if set(value) == {"path", "sha256"}:
-            return value["sha256"]
-        return {key: _by_content(inner) for key, inner in value.items()}
-    return [_by_content(inner) for inner in value] if isinstance(value, list | tuple) else value

@@ -1,4 +1,4 @@
-"""The recipe: DWB with the names and defaults of Nav2 (galactic, humble), limits and footprint from the robot.
+"""The controller `dwb` with the names and defaults of Nav2 (galactic, humble), limits and footprint from the robot.
 
 Nav2: Macenski et al., "The Marathon 2: A Navigation System", IROS 2020. DWB descends from the dynamic window approach
 (Fox, Burgard and Thrun, IEEE Robotics & Automation Magazine 4, 1997).

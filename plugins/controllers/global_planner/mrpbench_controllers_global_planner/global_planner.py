@@ -1,4 +1,4 @@
-"""The recipe: the options of the planner, and of its global costmap by Nav2's names."""
+"""The controller `global_planner`: the options of the planner, and of its global costmap by Nav2's names."""
 
 from collections.abc import Sequence
 from typing import Any

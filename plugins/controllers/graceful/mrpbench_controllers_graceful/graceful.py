@@ -1,4 +1,4 @@
-"""The recipe: the graceful controller with the names and defaults of Nav2 (lyrical 1.5), limits from the robot.
+"""The controller `graceful` with the names and defaults of Nav2 (lyrical 1.5), limits from the robot.
 
 Park and Kuipers, "A smooth control law for graceful motion of differential wheeled mobile robots in 2D environment",
 ICRA 2011.

@@ -1,4 +1,4 @@
-"""The recipe: MPPI with the names and defaults of Nav2 (lyrical 1.5), limits from the robot.
+"""The controller `mppi` with the names and defaults of Nav2 (lyrical 1.5), limits from the robot.
 
 Williams, Drews, Goldfain, Rehg and Theodorou, "Aggressive driving with model predictive path integral control", ICRA
 2016.

@@ -1,4 +1,4 @@
-"""The recipe: regulated pure pursuit with the names and defaults of Nav2 (lyrical 1.5), limits from the robot.
+"""The controller `rpp` (regulated pure pursuit) with names and defaults of Nav2 (lyrical 1.5), limits from the robot.
 
 Macenski, Singh, Martin and Gines, "Regulated pure pursuit for robot path tracking", Autonomous Robots 47, 2023.
 """

@@ -21,7 +21,6 @@ from mrpbench_simulators_bodies.stance import above_floor, check_stance
 
 _BEYOND = 0.01
 """metres by which a body may stand out beyond the footprint that planners keep free."""
-_ZERO = (0.0, 0.0, 0.0)
 _ONE = (1.0, 1.0, 1.0)
 
 
