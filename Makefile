@@ -150,13 +150,11 @@ ros: ## test live ROS 2, with rclpy from PyPI in its own environment (Python 3.1
 	$(ROS)/python -m pytest -p no:cacheprovider plugins/bridges/ros2
 
 LIVE := build/live/bin
-live: ## drive vehicles of VDA 5050 by vda5050-sdk and vda-5050-lib and vehicles of both, kill the broker 20 times, send 100,000 broken messages, run scenarios and fleets of Open-RMF (half an hour); needs mosquitto, and npm
+live: ## measure live fleets, a line for each figure with what was asked: orders of vda5050-sdk and vda-5050-lib, 100,000 broken messages, a broker killed 20 times, the load test, the patrol swap, the table of Open-RMF (an hour); ARGS="--only swap" for less; needs mosquitto, and npm
 	test -x $(LIVE)/python || $(PYTHON) -m venv build/live
 	$(LIVE)/python -m pip install --quiet hypothesis pytest pytest-timeout vda5050-sdk aiomqtt -e . ./native -e plugins -e 'plugins/live[rmf,vda5050]'
 	if command -v npm >/dev/null; then npm install --silent --no-save --prefix build/live vda-5050-lib@1.4.0; fi
-	NODE_PATH=build/live/node_modules MRPBENCH_LIVE_ORDERS=50 MRPBENCH_LIVE_MESSAGES=100000 MRPBENCH_LIVE_KILLS=20 $(LIVE)/python -m pytest --timeout 1200 -p no:cacheprovider plugins/live
-	for scenario in redirect follow "swap --seconds 4500" "swap --seconds 120 dispatcher.dispatcher=all_at_once"; do $(LIVE)/python benchmarks/rmf_scenarios.py $$scenario || exit 1; done
-	$(LIVE)/python benchmarks/rmf_traffic.py --robots 10 50 100 200 500 --seconds 60
+	NODE_PATH=build/live/node_modules $(LIVE)/python benchmarks/live.py $(ARGS)
 
 PAPER := table2 fig5 table4 paper replicability
 paper: install ## repeat the paper's tables in office, warehouse and airport, with bodies (ten hours; what is done is not repeated); ARGS="seed=3000" PAPER=paper for less

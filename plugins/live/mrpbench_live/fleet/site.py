@@ -6,6 +6,7 @@ from collections import defaultdict
 import numpy as np
 
 from mrpbench_core.api import Fleet, Roadmap, World
+from mrpbench_live.fleet.regions import clearance
 
 REACH = 0.5
 """Metres from a vertex of the roadmap within which a position means this vertex; on a raster, its cell."""
@@ -55,7 +56,8 @@ class Site:
         self._leaving: list[dict[int, list[tuple[int, int, int]]]] = [
             self._edges_of(profile) for profile in range(len(roadmap.duration))
         ]
-        self._ways: dict[tuple[int, int, int, bool], tuple[int, ...] | None] = {}
+        self._ways: dict[tuple[int, int, int, bool, frozenset[int]], tuple[int, ...] | None] = {}
+        self._entering: dict[tuple[int, tuple[tuple[float, float], ...], float], frozenset[int]] = {}
 
     def nearest(self, x: float, y: float, level: int) -> int | None:
         """Return the vertex that a position (metres) on a level means, or None if there is none there."""
@@ -71,7 +73,9 @@ class Site:
         """Return the vertex at the place of another whose heading is nearest to a yaw (radians)."""
         return int(self.roadmap.facing(np.array([vertex], np.int32), np.array([yaw]))[0])
 
-    def way(self, profile: int, start: int, end: int, any_heading: bool = True) -> tuple[int, ...] | None:
+    def way(
+        self, profile: int, start: int, end: int, any_heading: bool = True, closed: frozenset[int] = frozenset()
+    ) -> tuple[int, ...] | None:
         """Return the edges of the fastest way from one vertex to another, or None if there is none.
 
         The vehicle drives it alone: no way leads through a door or a lift, which somebody would have to operate.
@@ -81,13 +85,32 @@ class Site:
             start: vertex.
             end: vertex.
             any_heading: any vertex at the place of `end` will do.
+            closed: edges by which no way leads.
         """
-        key = profile, start, end, any_heading and self.has_headings
+        key = profile, start, end, any_heading and self.has_headings, closed
         if key not in self._ways:
             self._ways[key] = self._search(*key)
         return self._ways[key]
 
-    def _search(self, profile: int, start: int, end: int, any_heading: bool) -> tuple[int, ...] | None:
+    def entering(self, level: int, polygon: tuple[tuple[float, float], ...], radius: float) -> frozenset[int]:
+        """Return the edges by which a disc comes into a polygon (metres) on a level from outside."""
+        key = level, polygon, radius
+        if key not in self._entering:
+            tail, head = self.roadmap.edges.reshape(-1, 2).T
+            position, corners = self.roadmap.position, np.array(polygon)
+            low, high = corners.min(axis=0) - radius, corners.max(axis=0) + radius
+            begin, end = position[tail], position[head]
+            near = (np.maximum(begin, end) >= low).all(axis=1) & (np.minimum(begin, end) <= high).all(axis=1)
+            found = np.flatnonzero(near & (self.roadmap.level[tail] == level))
+            begin, end = begin[found], end[found]
+            comes = clearance(begin, end, corners) < radius
+            outside = clearance(begin, begin, corners) >= radius
+            self._entering[key] = frozenset(found[comes & outside].tolist())
+        return self._entering[key]
+
+    def _search(
+        self, profile: int, start: int, end: int, any_heading: bool, closed: frozenset[int]
+    ) -> tuple[int, ...] | None:
         position, level, ends = self.roadmap.position, self.roadmap.level, {end}
         if any_heading:
             same = (position == position[end]).all(axis=1) & (level == level[end])
@@ -102,7 +125,7 @@ class Site:
             if spent > best[vertex]:
                 continue
             for edge, head, ticks in leaving[vertex]:
-                if spent + ticks < best.get(head, 2**60):
+                if spent + ticks < best.get(head, 2**60) and edge not in closed:
                     best[head], by[head] = spent + ticks, edge
                     heapq.heappush(open_vertices, (spent + ticks, head))
         return None

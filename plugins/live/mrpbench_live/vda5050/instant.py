@@ -7,7 +7,7 @@ from typing import Any
 from mrpbench_live.vda5050.actions import Action
 from mrpbench_live.vda5050.names import Names
 from mrpbench_live.vda5050.orders import RefusedError
-from mrpbench_live.vda5050.scopes import SCOPES
+from mrpbench_live.vda5050.scopes import scopes_of
 from mrpbench_live.vda5050.track import Track, distance
 from mrpbench_live.vda5050.vehicle import UNTIL_NEXT_INSTANT_ACTION, UNTIL_NEXT_ORDER, Vehicle
 
@@ -38,6 +38,8 @@ class InstantActions:
             "initializePosition": self._initialize_position,
             "startCharging": self._start_charging,
             "stopCharging": self._stop_charging,
+            "enableZoneSet": self._enable_zone_set,
+            "deleteZoneSet": self._delete_zone_set,
         }
 
     def take(self, message: Any, fault: str | None) -> None:
@@ -52,7 +54,7 @@ class InstantActions:
                 continue
             vehicle.instant[action.id], vehicle.changed = action, True
             kind = "initializePosition" if action.type == self._names.initialize_position else action.type
-            if "INSTANT" not in SCOPES.get(kind, ()):
+            if "INSTANT" not in scopes_of(self._names).get(kind, ()):
                 action.status = "FAILED"
                 refers = {"topic": "instantActions", "actionId": action.id, "actionType": action.type}
                 what = f"the instant action {action.type!r} does not exist"
@@ -122,6 +124,20 @@ class InstantActions:
     def _stop_charging(self, action: Action) -> None:
         self._vehicle.charging = False
         self._end(action)
+
+    def _enable_zone_set(self, action: Action) -> None:
+        self._end_with(action, self._vehicle.zones.enable(action.parameters.get("zoneSetId")))
+
+    def _delete_zone_set(self, action: Action) -> None:
+        self._end_with(action, self._vehicle.zones.delete(action.parameters.get("zoneSetId")))
+
+    def _end_with(self, action: Action, fault: str | None) -> None:
+        """End an action about zone sets; `fault`: why it fails, or None."""
+        if fault is None:
+            self._vehicle.zones_changed()
+            self._end(action)
+        else:
+            action.status, action.result = "FAILED", fault
 
 
 def _number(value: Any) -> float:

@@ -133,6 +133,7 @@ class _Member:
         self._intervals = LEAST_INTERVAL, recipe.state_interval, recipe.visualization_interval
         self._order_fault = validator(recipe.version, "order")
         self._actions_fault = validator(recipe.version, "instantActions")
+        self._zones_fault = validator(recipe.version, "zoneSet") if self._names.zones else None
 
         def note(kind: str, detail: str) -> None:
             fleet.note(robot, kind, detail)
@@ -151,7 +152,7 @@ class _Member:
             wire,
             f"{recipe.manufacturer}-{serial}",
             (f"{self._topic}connection", json.dumps(will).encode()),
-            (f"{self._topic}order", f"{self._topic}instantActions"),
+            tuple(self._topic + it for it in ("order", "instantActions", *(["zoneSet"] if self._names.zones else []))),
             self._online,
             lambda topic, payload: fleet.faulty.carry(lambda: self._take(topic, payload)),
         )
@@ -226,3 +227,5 @@ class _Member:
             self._vehicle.take_order(message, fault or self._order_fault(message))
         elif kind == "instantActions":
             self._instant.take(message, fault or self._actions_fault(message))
+        elif kind == "zoneSet" and self._zones_fault is not None:
+            self._vehicle.take_zones(message, fault or self._zones_fault(message))

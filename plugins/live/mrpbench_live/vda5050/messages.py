@@ -9,8 +9,9 @@ from typing import Any
 from mrpbench_core.api import RobotModel
 from mrpbench_live.vda5050.actions import Action
 from mrpbench_live.vda5050.names import Names
-from mrpbench_live.vda5050.scopes import SCOPES
+from mrpbench_live.vda5050.scopes import scopes_of
 from mrpbench_live.vda5050.vehicle import Vehicle
+from mrpbench_live.vda5050.zones import SUPPORTED
 
 LARGEST_THETA = 3.1415
 """Radians: what is nearer to half a turn would be rounded to more than the schemas allow."""
@@ -22,6 +23,7 @@ _OPTIONAL = (
     "nodes.nodePosition.allowedDeviationTheta",
     "edges.length",
     "edges.rotationAllowed",
+    "edges.corridor",
 )
 """Optional parameters of orders that vehicles use. What a factsheet does not list counts as not supported (7.10)."""
 
@@ -126,6 +128,8 @@ def state_of(vehicle: Vehicle, maps: Sequence[str], names: Names) -> dict[str, A
         ],
         "safetyState": {names.emergency_stop: "NONE", "fieldViolation": False},
     }
+    if names.zones:
+        state["zoneSets"] = vehicle.zones.states()
     if names.has_instant_states:
         state["instantActionStates"] = [_action_state(it, names) for it in instant]
     return state
@@ -153,7 +157,7 @@ def factsheet_of(
     minimum, usual, visualization = intervals
     width, length = (float(extent) for extent in (robot.footprint.max(axis=0) - robot.footprint.min(axis=0))[::-1])
     kind = {"seriesName": robot.name, "localizationTypes": ["NATURAL"], "navigationTypes": ["VIRTUAL_LINE_GUIDED"]}
-    scopes: Mapping[str, Sequence[str]] = SCOPES
+    scopes: Mapping[str, Sequence[str]] = scopes_of(names)
     corners = [{"x": float(x), "y": float(y)} for x, y in robot.footprint]
     if names.single:
         return {
@@ -162,7 +166,7 @@ def factsheet_of(
                 "mobileRobotKinematics": "DIFFERENTIAL",
                 "mobileRobotClass": "CARRIER",
                 "maximumLoadMass": 0.0,
-                "supportedZones": [],
+                "supportedZones": list(SUPPORTED),
             },
             "physicalParameters": {
                 "minimumSpeed": 0.0,

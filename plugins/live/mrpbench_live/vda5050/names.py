@@ -32,6 +32,8 @@ class Names:
     """States of instant actions have an array of their own."""
     single: bool
     """The blocking type SINGLE exists."""
+    zones: bool
+    """Zones exist."""
 
     def error(self, kind: str, level: str) -> tuple[str, str]:
         """Return type and level of an error of 3.0 in this version."""
@@ -65,8 +67,9 @@ _ORDER = {
     "NO_ORDER_TO_CANCEL": ("noOrderToCancel", "WARNING"),
     "NO_STITCHING": ("orderUpdateError", "WARNING"),
     "NODE_UNREACHABLE": ("nodeUnreachable", "FATAL"),
+    "OUTSIDE_OF_CORRIDOR": ("outsideOfCorridor", "FATAL"),
 }
-_FIELDS = frozenset({"trajectory", "corridor", "orientation", "direction"})
+_FIELDS = frozenset({"trajectory", "orientation", "direction"})
 VERSIONS = {
     "2.1": Names(
         version="2.1.0",
@@ -85,6 +88,7 @@ VERSIONS = {
         unsupported=_FIELDS | {"maxHeight", "minHeight", "maxRotationSpeed", "zoneSetId"},
         has_instant_states=False,
         single=False,
+        zones=False,
     ),
     "3.0": Names(
         version="3.0.0",
@@ -104,6 +108,7 @@ VERSIONS = {
         | {"maximumMobileRobotHeight", "minimumLoadHandlingDeviceHeight", "maxRotationSpeed", "maximumRotationSpeed"},
         has_instant_states=True,
         single=True,
+        zones=True,
     ),
 }
 """The names of each version, by its number in configurations."""

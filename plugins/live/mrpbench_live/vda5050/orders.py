@@ -7,7 +7,9 @@ from collections.abc import Collection, Iterable, Mapping
 from typing import Any, Protocol
 
 import attrs
+import numpy as np
 
+from mrpbench_core.api import Float
 from mrpbench_live.vda5050.actions import STANDING, Action
 from mrpbench_live.vda5050.names import Names
 
@@ -69,11 +71,19 @@ class Edge:
 
     message: Mapping[str, Any]
     actions: list[Action]
+    line: Float = attrs.field(factory=lambda: np.empty((0, 2)), eq=False)
+    """f8[k,2] metres: the way along it, without places that follow upon themselves."""
 
     @property
     def released(self) -> bool:
         """True if it is part of the base."""
         return bool(self.message["released"])
+
+    @property
+    def corridor(self) -> Mapping[str, Any] | None:
+        """How far the vehicle may leave the line."""
+        found: Mapping[str, Any] | None = self.message.get("corridor")
+        return found
 
     @property
     def stands(self) -> bool:

@@ -9,7 +9,7 @@ import yaml
 
 from mrpbench_core.api import InputError
 
-TOPICS = "order", "instantActions", "state", "connection", "factsheet", "visualization"
+TOPICS = "order", "instantActions", "state", "connection", "factsheet", "visualization", "zoneSet"
 HINT = "pip install 'mrpbench-live[vda5050]'"
 _TYPES = ("any", "array", "boolean", "date-time", "integer", "number", "object", "string")
 
@@ -20,7 +20,7 @@ def validator(version: str, topic: str) -> Callable[[Any], str | None]:
 
     Args:
         version: `2.1` or `3.0`.
-        topic: one of `TOPICS`.
+        topic: one of `topics_of`.
 
     Raises:
         InputError: `fastjsonschema` is not installed.
@@ -43,10 +43,20 @@ def validator(version: str, topic: str) -> Callable[[Any], str | None]:
 
 def schema(version: str, topic: str) -> dict[str, Any]:
     """Return the JSON Schema (draft 7) of the messages of a topic."""
-    text = resources.files("mrpbench_live.vda5050").joinpath("fields", f"{version}.yaml").read_text()
-    entries = yaml.load(text, Loader=yaml.CSafeLoader)
+    entries = _entries(version)
     parts = {name: _schema(fields) for name, fields in entries.items() if name not in TOPICS}
     return _schema(entries[topic]) | {"definitions": parts}
+
+
+def topics_of(version: str) -> tuple[str, ...]:
+    """Return those of `TOPICS` that a version has."""
+    entries = _entries(version)
+    return tuple(topic for topic in TOPICS if topic in entries)
+
+
+def _entries(version: str) -> Any:
+    text = resources.files("mrpbench_live.vda5050").joinpath("fields", f"{version}.yaml").read_text()
+    return yaml.load(text, Loader=yaml.CSafeLoader)
 
 
 def _schema(fields: Any) -> dict[str, Any]:

@@ -2,6 +2,8 @@
 
 from collections.abc import Mapping
 
+from mrpbench_live.vda5050.names import Names
+
 SCOPES: Mapping[str, tuple[str, ...]] = {
     "cancelOrder": ("INSTANT",),
     "startPause": ("INSTANT",),
@@ -20,3 +22,10 @@ SCOPES: Mapping[str, tuple[str, ...]] = {
     "waitForTrigger": ("NODE",),
 }
 """In the words of 3.0."""
+ZONE_SCOPES: Mapping[str, tuple[str, ...]] = {"enableZoneSet": ("INSTANT",), "deleteZoneSet": ("INSTANT",)}
+"""What vehicles know besides where zones exist."""
+
+
+def scopes_of(names: Names) -> Mapping[str, tuple[str, ...]]:
+    """Return the actions that vehicles of a version know, and where each may be."""
+    return {**SCOPES, **ZONE_SCOPES} if names.zones else SCOPES

@@ -5,9 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from mrpbench_core.api import Float
 from mrpbench_live.fleet.paths import FleetPaths
 from mrpbench_live.fleet.site import Site
 from mrpbench_live.vda5050.orders import Node, asks_for_heading
+from mrpbench_live.vda5050.zones import ZoneSets
 
 
 class Track:
@@ -22,6 +24,9 @@ class Track:
     def __init__(self, site: Site, paths: FleetPaths, robot: int) -> None:
         self._site, self._paths, self._robot = site, paths, robot
         self._profile = site.profiles[robot]
+        self.footprint: Float = site.fleet.robots[robot].footprint
+        """f8[k,2] of the vehicle, metres."""
+        self.zones = ZoneSets(site, robot)
 
     @property
     def maps(self) -> Sequence[str]:
@@ -49,7 +54,7 @@ class Track:
         """Return the ways from one vertex to each of the nodes in turn, or the first node to which there is none."""
         ways = []
         for node in nodes:
-            way = self._site.way(self._profile, start, node.vertex, node.any_heading)
+            way = self._site.way(self._profile, start, node.vertex, node.any_heading, self.zones.closed)
             if way is None:
                 return node
             start = int(self._site.roadmap.edges[way[-1], 1]) if way else start
@@ -71,6 +76,30 @@ class Track:
         same = min(len(old), len(new)) if same is None else same
         self._paths.shorten(self._robot, moves + same)
         self._paths.append(self._robot, tuple(new[same:]))
+
+    def line(self, way: Sequence[int]) -> Float:
+        """Return the places f8[k,2] (metres) along some edges, without those that follow upon themselves."""
+        if not way:
+            return np.empty((0, 2))
+        ends = self._site.roadmap.edges[list(way)]
+        found: Float = self._site.roadmap.position[[ends[0, 0], *ends[:, 1]]]
+        moves = np.concatenate([[True], (np.diff(found, axis=0) != 0).any(axis=1)])
+        line: Float = found[moves]
+        return line
+
+    @property
+    def ahead(self) -> Float:
+        """f8[k,2] metres: the places at which the moves end that the vehicle has not made."""
+        way = self._paths.after(self._robot, self.passed)
+        found: Float = self._site.roadmap.position[self._site.roadmap.edges[way, 1]] if way else np.empty((0, 2))
+        return found
+
+    @property
+    def barrier(self) -> int | None:
+        """The moves before the first one that is not released and enters a BLOCKED zone; None: there is none."""
+        closed, released = self.zones.closed, self.released
+        way = self._paths.after(self._robot, released) if closed else ()
+        return next((released + at for at, edge in enumerate(way) if edge in closed), None)
 
     def shorten(self, moves: int) -> int:
         """Take back what is not released after some moves; return the moves that are left."""

@@ -4,16 +4,18 @@ It drives on the lines of the roadmap (VIRTUAL_LINE_GUIDED), so it stops at the 
 is cancelled or when it is paused (6.1.3).
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from mrpbench_live.vda5050 import orders
 from mrpbench_live.vda5050.actions import STANDING, Action, ActionQueue
 from mrpbench_live.vda5050.battery import Battery
+from mrpbench_live.vda5050.bounds import Bounds
 from mrpbench_live.vda5050.condition import Error, Here
+from mrpbench_live.vda5050.corridors import check_corridors
 from mrpbench_live.vda5050.names import Names
 from mrpbench_live.vda5050.orders import Edge, Node, RefusedError
-from mrpbench_live.vda5050.scopes import SCOPES
+from mrpbench_live.vda5050.scopes import scopes_of
 from mrpbench_live.vda5050.track import Track, distance
 
 START_RANGE = 0.5
@@ -23,6 +25,7 @@ NEW_BASE = 3.0
 AT_ONCE = "startCharging", "stopCharging"
 """Actions that take no time."""
 UNTIL_NEXT_ORDER, UNTIL_NEXT_INSTANT_ACTION, UNTIL_AVAILABLE = "order", "instantAction", "available"
+UNTIL_NEXT_ZONE_SET, UNTIL_CORRECTED = "zoneSet", "corrected"
 """What ends an error."""
 
 
@@ -64,6 +67,8 @@ class Vehicle:
         """The instant action that ends when the paused vehicle stands."""
         self._cancel: Action | None = None
         self._cancelled = self._has_horizon = False
+        self._bounds = Bounds(track, self._out_of_bounds, self._correct)
+        self.zones = track.zones
         self.queue = ActionQueue()
         """The actions of the order that were triggered."""
         self.changed = True
@@ -95,7 +100,8 @@ class Vehicle:
         if not same:
             self._check_start(message)
         orders.check_fields(message, self._names, self._track.has_headings)
-        orders.check_actions(message, SCOPES)
+        orders.check_actions(message, scopes_of(self._names))
+        check_corridors(message, self._track.footprint)
         nodes, edges = orders.read_nodes(message, self._track, self._names), orders.read_edges(message)
         if same:
             self._update(message, nodes, edges)
@@ -104,6 +110,7 @@ class Vehicle:
         self.order = message
         self.errors = [error for error in self.errors if error.until != UNTIL_NEXT_ORDER]
         self.changed = True
+        self._look_ahead()
         self._note("order_accepted", f"{message['orderId']} {message['orderUpdateId']}")
 
     def _is_repetition(self, message: Mapping[str, Any]) -> bool:
@@ -125,6 +132,8 @@ class Vehicle:
         first = nodes[0]
         ways = self._ways(message, self._track.end, nodes[1:])
         first.mark = self._track.length
+        self._bounds.resume()
+        self._lay(edges, ways)
         self._track.replace(first.mark, nodes[1:], ways)
         self.nodes, self.edges, self.actions = nodes[1:], edges, {}
         if not self._names.has_instant_states:
@@ -143,6 +152,7 @@ class Vehicle:
             what = f"the update begins with {first.id!r}, {first.sequence}, and the base ends with {decision.id!r}, "
             raise RefusedError("NO_STITCHING", f"{what}{decision.sequence}", refers | {"nodeId": first.id})
         ways = self._ways(message, self._track.end_after(decision.mark), nodes[1:])
+        self._lay(edges, ways)
         self._track.replace(decision.mark, nodes[1:], ways)
         left: list[Node | Edge] = [*self.nodes, *self.edges]
         horizon = {action.id for part in left if not part.released for action in part.actions}
@@ -200,7 +210,9 @@ class Vehicle:
     def restless(self) -> bool:
         """True if something may happen to the vehicle although it neither passes a node nor begins or ends to drive."""
         waits = self.pause is not None and not self.pause.ended
-        return self.changed or waits or bool(self.queue) or self._cancel is not None or self._has_horizon
+        edge = self._edge
+        busy = bool(self.queue) or self._cancel is not None or self._has_horizon
+        return self.changed or waits or busy or bool(self.zones) or (edge is not None and edge.corridor is not None)
 
     def advance(self, here: Here) -> None:
         """Go on to another time: traverse nodes, perform actions, and decide how far the vehicle may drive."""
@@ -212,6 +224,7 @@ class Vehicle:
             self._break_down()
         while self.nodes and self.nodes[0].mark <= self._track.passed and self._may_traverse(self.nodes[0]):
             self._traverse(self.nodes.pop(0))
+        self._bounds.watch(here, self._edge)
         self._perform(here)
         self._finish(here)
         self._drive()
@@ -283,6 +296,7 @@ class Vehicle:
             self.pause.status, self.changed = "FINISHED", True
         if self._cancel is not None and self._track.passed >= self._track.length:
             self.nodes, self.edges, self._cancelled = [], [], True
+            self._bounds.resume()
             self._cancel.status, self._cancel, self.changed = "FINISHED", None, True
             self._note("order_cancelled", str(self.order and self.order["orderId"]))
 
@@ -291,20 +305,71 @@ class Vehicle:
         limit, speed = self._track.passed, float("inf")
         if self._cancel is not None:
             limit = self._track.length
-        elif not self.paused and not self.queue.standing and not self.charging:
+        elif not self._bounds.halted and not self.paused and not self.queue.standing and not self.charging:
             for node, edge in zip(self.nodes, self.edges, strict=False):
                 if not node.released or edge.stands:
                     break
                 limit = node.mark
                 if any(action.blocking in STANDING and not action.ended for action in node.actions):
                     break
+        if self._cancel is None:
+            limit = self._bounds.limit(limit)
         if self.edges:
             speed = float(self.edges[0].message.get(self._names.maximum_speed, speed))
+        if self.zones.limits_speed:
+            speed = min(speed, self.zones.speed(self.here, self._track.ahead))
         self._track.allow(limit, speed)
         self._has_horizon = bool(self.nodes) and not self.nodes[-1].released
         asks = self._cancel is None and self._has_horizon and self._base_is_short()
         if asks != self.new_base:
             self.new_base, self.changed = asks, True
+
+    # Where it may be
+
+    @property
+    def _edge(self) -> Edge | None:
+        """The edge on which the vehicle is, None while it is cancelled: then it only stops."""
+        on_edge = self.edges and self.edges[0].released and self._cancel is None
+        return self.edges[0] if on_edge else None
+
+    def take_zones(self, message: Any, fault: str | None) -> None:
+        """Keep a zone set, or refuse it; `fault`: what is wrong with the message by its schema."""
+        try:
+            if fault is not None:
+                raise RefusedError("VALIDATION_FAILURE", fault, {"topic": "zoneSet"})
+            self.zones.add(message)
+        except RefusedError as refusal:
+            self.refuse(refusal, UNTIL_NEXT_ZONE_SET)
+            return
+        self.zones_changed()
+        self._note("zone_set", str(message["zoneSet"]["zoneSetId"]))
+
+    def zones_changed(self) -> None:
+        """Note that zone sets were added, enabled or deleted, which ends errors about them."""
+        self.errors = [error for error in self.errors if error.until != UNTIL_NEXT_ZONE_SET]
+        self.changed = True
+        self._look_ahead()
+        self._drive()
+
+    def _look_ahead(self) -> None:
+        self._bounds.look_ahead(() if self._cancel is not None else self.nodes)
+
+    def _out_of_bounds(self, kind: str, what: str, refers: Mapping[str, str]) -> None:
+        until = UNTIL_NEXT_ORDER if kind == "NODE_UNREACHABLE" else UNTIL_CORRECTED
+        self._report(kind, "CRITICAL", what, refers, until)
+        self._note("out_of_bounds", f"{self.errors[-1].type}: {what}")
+
+    def _correct(self, kind: str) -> None:
+        """End an error."""
+        name = self._names.error(kind, "CRITICAL")[0]
+        self.errors, before = [error for error in self.errors if error.type != name], len(self.errors)
+        self.changed |= len(self.errors) < before
+
+    def _lay(self, edges: list[Edge], ways: Sequence[tuple[int, ...]]) -> None:
+        """Note the lines of edges that have corridors."""
+        for edge, way in zip(edges, ways, strict=True):
+            if edge.corridor is not None:
+                edge.line = self._track.line(way)
 
     def _base_is_short(self) -> bool:
         left = [node for node in self.nodes if node.released]

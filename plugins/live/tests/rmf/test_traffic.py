@@ -46,14 +46,14 @@ class Post:
         self.traffic = Traffic(self.messages, self.wire, ("a", "b", "c"))
         self.problem = SimpleNamespace(roadmap=ROADMAP, start=np.array([0, 2, 4]))
 
-    def send(self, robot, session, *points):
+    def send(self, robot, session, *points, now=0.0):
         regions = [self.messages.new(P + "TargetRegion", region=self.messages.new(P + "Region", points=points))]
         constraints = self.messages.new(P + "DestinationConstraints", regions=regions if points else [])
         uuid = self.messages.new("unique_identifier_msgs/UUID", uuid=[session] * 16)
         self.traffic.participants.destinations[robot] = self.messages.new(
             P + "Destination", constraints=constraints, session=uuid
         )
-        return [(event.kind, event.robot) for event in self.traffic.hear(0.0, self.problem)]
+        return [(event.kind, event.robot) for event in self.traffic.hear(now, self.problem)]
 
     @property
     def goals(self):
@@ -98,3 +98,21 @@ def test_of_two_robots_with_one_destination_the_later_waits(post):
     post.send(1, 3, 0.0, 0.0)  # where the first one waits
     assert post.goals == [0, 2, 3]
     assert sorted(post.errors) == [("a/destination/error", 1002), ("b/destination/error", 1002)]
+
+
+def test_destinations_that_come_together_get_one_plan(post):
+    post.send(0, 1, 2.0, 0.0)  # where b stands, which is about to go to where a stands
+    assert post.traffic.replan(0.0) == ""
+    post.send(1, 2, 0.0, 0.0, now=0.1)
+    assert post.traffic.replan(0.1) == ""
+    post.traffic.hear(0.2, post.problem)
+    assert post.traffic.replan(0.2) == "a has another destination"
+    assert (post.goals, post.errors) == ([2, 0, 4], [])
+
+
+def test_a_plan_does_not_wait_for_all_the_destinations_that_come(post):
+    reasons = []
+    for step in range(8):
+        post.send(step % 2, step, 2.0 - step % 2, 0.0, now=0.1 * step)
+        reasons.append(bool(post.traffic.replan(0.1 * step)))
+    assert reasons == [False] * 5 + [True] * 3

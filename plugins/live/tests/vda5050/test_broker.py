@@ -16,7 +16,7 @@ class Control:
     """Sends orders to robot_0, and keeps the newest message of each topic."""
 
     def __init__(self, url):
-        self.newest, self.headers = {}, Headers("3.0.0", "mrpbench", "robot_0")
+        self.newest, self.headers, self.states = {}, Headers("3.0.0", "mrpbench", "robot_0"), []
         self.wire = Wire(Broker.of(url))
         self.client = Client(
             self.wire, "control", None, (TOPIC + "state", TOPIC + "connection"), lambda: None, self.take
@@ -25,7 +25,13 @@ class Control:
         self.wire.meet(5)
 
     def take(self, topic, payload):
-        self.newest[topic.rpartition("/")[2]] = json.loads(payload)
+        kind, message = topic.rpartition("/")[2], json.loads(payload)
+        self.newest[kind] = message
+        if kind == "state":
+            self.states.append(message)
+
+    def publish(self, topic, **body):
+        self.client.publish(TOPIC + topic, json.dumps({**self.headers.next(topic), **body}).encode())
 
     def wait(self, holds, seconds=30):
         until = time.monotonic() + seconds
@@ -49,7 +55,7 @@ class Control:
             for i in range(len(places) - 1)
         ]
         body = {"orderId": "o1", "orderUpdateId": update, "nodes": nodes, "edges": edges}
-        self.client.publish(TOPIC + "order", json.dumps({**self.headers.next("order"), **body}).encode())
+        self.publish("order", **body)
 
 
 def test_a_killed_broker_stops_vehicles_at_the_end_of_their_base(serve, broker):
@@ -84,3 +90,40 @@ def test_a_killed_broker_stops_vehicles_at_the_end_of_their_base(serve, broker):
     assert record["status"] == "succeeded"
     assert record["metrics"]["execution.robot_contacts"] == 0
     assert [detail.split()[0] for kind, _, detail in events if kind == "node_traversed"] == ["n1", "n2", "n3", "n4"]
+
+
+def square(x, y, half):
+    return [{"x": x + i * half, "y": y + j * half} for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+
+
+def test_vehicles_keep_to_zone_sets(serve, broker):
+    start, result, _ = serve
+    start(60, "3.0", 4)
+    control = Control(broker.url)
+    control.wait(lambda it: "state" in it)
+    place = control.newest["state"]["mobileRobotPosition"]
+    x, y = place["x"], place["y"]
+    step = 1 if x < 6 else -1
+    zones = [
+        {"zoneId": "closed", "zoneType": "BLOCKED", "vertices": square(x + step, y, 0.2)},
+        {"zoneId": "slow", "zoneType": "SPEED_LIMIT", "vertices": square(x, y, 20.0), "maximumSpeed": 0.15},
+    ]
+    control.publish("zoneSet", zoneSet={"mapId": "L1", "zoneSetId": "set", "zones": zones})
+    control.wait(lambda it: it["state"]["zoneSets"])
+    parameters = [{"key": "zoneSetId", "value": "set"}]
+    action = {"actionId": "a", "actionType": "enableZoneSet", "blockingType": "NONE", "actionParameters": parameters}
+    control.publish("instantActions", actions=[action])
+    control.wait(lambda it: it["state"]["zoneSets"][0]["zoneSetStatus"] == "ENABLED")
+    control.order([(x, y), (x + 2 * step, y)], base=2, update=0, first=0)
+    control.wait(lambda it: it["state"]["lastNodeId"] == "n1" and not it["state"]["driving"])
+    control.wire.close()
+    record, _ = result()
+    assert record["status"] == "succeeded"
+    assert not any(state["errors"] for state in control.states)
+    speeds = [state["velocity"]["vx"] for state in control.states]
+    assert 0.1 < max(speeds) <= 0.15 + 1e-3
+    away = [
+        max(abs(it["mobileRobotPosition"]["x"] - x - step), abs(it["mobileRobotPosition"]["y"] - y))
+        for it in control.states
+    ]
+    assert min(away) > 0.25  # around the zone

@@ -58,7 +58,7 @@ class _PlanServer(DispatcherSession):
         self._reached, self._released = view.reached.astype(np.int64), orders.released.astype(np.int64)
         if self._releases:
             self._traffic.release(orders.released)
-        reason = next(iter(self._traffic.unplanned.values()), "")
+        reason = self._traffic.replan(now)
         if not events and orders.replan == reason:
             return orders
         return attrs.evolve(orders, replan=reason or orders.replan, events=(*orders.events, *events))

@@ -1,5 +1,6 @@
 """What the components of one run share: the robots, where they are to go, and the plans that they were sent."""
 
+import math
 import time
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -20,6 +21,8 @@ Composed = tuple[list[Waypoints], dict[tuple[int, int], dict[int, int]]]
 """The waypoints of all robots, and what `blockers_of` returns."""
 NOWHERE = bytes(16)
 """Session of the plans of robots that have no destination, and have to make way."""
+LONGEST_S = 0.5
+"""Simulated seconds at most from a new destination until there is a plan for it, while others come."""
 
 
 class Traffic:
@@ -40,6 +43,10 @@ class Traffic:
         """Robots at whose destinations others are."""
         self.unplanned: dict[int, str] = {}
         """Why some robots need another plan."""
+        self._since = math.inf
+        """Simulated seconds at which the first of them came."""
+        self._quiet = True
+        """No destination came when robots were heard last."""
         self.posted: dict[int, Posted] = {}
         """The plan of each robot."""
         self._unsent: dict[int, Callable[[], Any]] = {}
@@ -83,7 +90,18 @@ class Traffic:
                 detail = printable(f"{error.error.code} {error.error.message}")[:300]
                 events.append(Event(stamp=now, kind="plan_error", robot=robot, detail=detail))
                 self.unplanned[robot] = f"{self._names[robot]} asks for another plan"
+        self._quiet = not any(event.kind == "destination" for event in events)
+        self._since = min(self._since, now) if self.unplanned else math.inf
         return events
+
+    def replan(self, now: float) -> str:
+        """Return why there has to be another plan now, or nothing.
+
+        Destinations that are posted together come one after another. Planned one by one, two robots that swap their
+        destinations would need two plans, and the first destination would be refused as that of the other robot.
+        """
+        is_time = self._quiet or now >= self._since + LONGEST_S - 1e-9
+        return next(iter(self.unplanned.values()), "") if is_time else ""
 
     def goals(self, ends: Sequence[int]) -> Goals:
         """Return where robots are to go: to their destinations, or to where they end anyway, `ends`[n].

@@ -7,7 +7,7 @@ from typing import Any
 
 from mrpbench_live.vda5050.check.rules import Report
 from mrpbench_live.vda5050.names import Names
-from mrpbench_live.vda5050.schemas import TOPICS, validator
+from mrpbench_live.vda5050.schemas import topics_of, validator
 
 RULES = {
     "json": "messages are JSON objects (6.4)",
@@ -30,7 +30,7 @@ class MessageCheck:
 
     def __init__(self, version: str, names: Names, report: Report) -> None:
         self._major, self._report = names.version.split(".")[0], report
-        self._faults = {topic: validator(version, topic) for topic in TOPICS}
+        self._faults = {topic: validator(version, topic) for topic in topics_of(version)}
         self._numbers: dict[str, int] = {}
 
     def read(self, topic: str, payload: bytes, retained: bool = False) -> Mapping[str, Any] | None:
