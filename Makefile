@@ -85,7 +85,7 @@ soak: install ## compare with brute force, execute drawn plans a million times, 
 pages: install ## do what every page of the documentation says, in empty folders (ten minutes)
 	MRPBENCH_ALL_PAGES=1 $(BIN)/pytest --numprocesses $(JOBS) --dist worksteal tests/docs
 
-hunts: install ## hunt for three planted faults, and count the runs until each is found (an hour); ARGS="2 20" for 2 searches and 20 random seeds
+hunts: install ## hunt for six planted faults, and count the runs until each is found (two hours); ARGS="2 20" for 2 searches and 20 random seeds
 	$(BIN)/python plugins/search/tests/hunting/soak_hunt.py $(or $(ARGS),10 300)
 
 rotations: install ## let rings of robots rotate 100,000 times in simulators and count contacts (two hours)

@@ -109,7 +109,8 @@ class DependencyGraph:
         apart = self.group_of_moves[order.before] != self.group_of_moves[order.after]
         before, after = order.before[apart], order.after[apart]
         row = np.where(order.completed[apart], REACHED, CLEARED) * len(self._problem) + self.moves.robot[before]
-        return np.unique(self._coded(row, self.moves.segment[before] + 1, self.group_of_moves[after]))
+        coded: Int = np.sort(self._coded(row, self.moves.segment[before] + 1, self.group_of_moves[after]))
+        return coded.compress(np.append(True, coded[1:] != coded[:-1])[: len(coded)])
 
     def _follows(self) -> Int:
         """All robots of a rotation must have reached its start, and a robot in a lift its exit."""

@@ -77,7 +77,9 @@ class OrderKeepingSession(DispatcherSession):
                 allow. Or it does not contain the released segments, or it lets a robot pass first where another one is
                 on its way already. The session then continues with its old plan.
         """
-        _check(problem, plan)
+        report = check_plan(problem, plan, conflict_limit=3)
+        if not report.valid:
+            raise DispatchError("; ".join(map(str, report.faults[:3] + report.conflicts)))
         gone: Int32 = np.zeros(len(problem), np.int32) if cut is None else cut
         old, new = (Paths.of(paths) for paths in (self.plan.paths, plan.paths))
         for robot in _differing(old.part(gone, self.released), new.part(np.zeros_like(gone), self.released - gone)):
@@ -171,9 +173,3 @@ def _differing(old: Paths, new: Paths) -> list[int]:
     unequal = old.edge[same] != new.edge[~differs[new.robot]]
     differs[old.robot[same][unequal]] = True
     return np.flatnonzero(differs).tolist()
-
-
-def _check(problem: Problem, plan: Plan) -> None:
-    report = check_plan(problem, plan, conflict_limit=3)
-    if not report.valid:
-        raise DispatchError("; ".join(map(str, report.faults[:3] + report.conflicts)))

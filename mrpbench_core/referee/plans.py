@@ -53,7 +53,8 @@ class Promises:
 
     def asked(self, problem: Problem) -> Problem:
         """The problem with the rules that the plan keeps."""
-        return attrs.evolve(problem, rules=attrs.evolve(problem.rules, k=self.k))
+        rules = attrs.evolve(problem.rules, k=self.k)
+        return problem if rules == problem.rules else attrs.evolve(problem, rules=rules)
 
     def message(self) -> dict[str, Any]:
         """The promises as plain data."""

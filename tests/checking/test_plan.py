@@ -136,6 +136,18 @@ def test_conflicts_are_looked_for_only_between_sound_paths_and_up_to_a_limit(mak
     assert not check_plan(asked, unsound).conflicts
 
 
+def test_reports_of_the_plan_and_the_problem_before_are_not_given_to_others(make, lane):
+    asked = make.problem(lane, [0, 3])
+    sound = Plan(paths=(make.path(lane, (0, 1, 1)), make.path(lane)))
+    jump = Plan(paths=(make.path(lane, (2, 3, 1)), make.path(lane)))
+    elsewhere = make.problem(lane, [1, 3])
+    for _ in range(2):
+        assert check_plan(asked, sound).valid
+        assert check_plan(asked, jump).faults == ("robot 0: starts at vertex 2 instead of 0",)
+        assert check_plan(asked, sound).valid
+        assert check_plan(elsewhere, sound).faults == ("robot 0: starts at vertex 0 instead of 1",)
+
+
 def walks(problem, path):
     """Tell by walking it step by step whether a single path is sound: an oracle of its own."""
     at, now, moved = int(problem.start[0]), 0, False

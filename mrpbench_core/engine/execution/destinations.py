@@ -101,10 +101,11 @@ class Places:
         """
         robots = len(self._problem)
         taken = RestingPlaces(self._near)
+        chosen: list[Errands] = [()] * robots
+        goals: list[tuple[GoalSet, ...]] = [()] * robots
         for robot in np.flatnonzero(stays).tolist():
             taken.add(robot, int(head[robot]))
-        chosen: list[Errands] = [()] * robots
-        goals: list[tuple[GoalSet, ...]] = [((taken.vertex.get(robot, -1),),) for robot in range(robots)]
+            goals[robot] = ((int(head[robot]),),)
         yaw = np.full(robots, np.nan)
         ends: list[Errand] = []
         for sequence in errands:
@@ -134,6 +135,8 @@ class Places:
         That is the nearest place with room. If robots may share goals and no place has room, it is the nearest of those
         to which fewest robots go.
         """
+        if self._shared and len(errands[-1].yaws) == 1:  # the usual case
+            return errands, next(iter(errands[-1].yaws))
         for last in range(len(errands), 0, -1):
             errand = errands[last - 1]
             for place in errand.yaws:

@@ -160,7 +160,7 @@ class Replanner:
             problem = attrs.evolve(problem, horizon=horizon)
         problem = attrs.evolve(problem, goals=((),) * len(problem) if self._chooses_goals else to.goals)
         problem = attrs.evolve(problem, features=features_of(problem) | (self.problem.features & {Feature.FOOTPRINTS}))
-        asked = attrs.evolve(problem, roadmap=roadmap)
+        asked = problem if roadmap is problem.roadmap else attrs.evolve(problem, roadmap=roadmap)
         constrained = asked if self._prediction is None else self._prediction.constrained(asked, now)
         result, fault, late = self._ask(constrained)
         if fault and constrained is not asked:

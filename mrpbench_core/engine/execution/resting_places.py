@@ -21,10 +21,6 @@ class Neighbourhoods:
         self.problem = problem
         self.radius: list[float] = problem.radius.tolist()
         """metres, of each robot."""
-        self.are_equal = len(set(self.radius)) < 2
-        """Whether all robots have one radius."""
-        self.excluded = cache(self._excluded)
-        """The vertices at which a robot excludes another one of the same radius, itself at a vertex."""
         self.of = cache(self._of)
         """Vertices near a vertex, itself included, and their distances from it."""
 
@@ -49,11 +45,6 @@ class Neighbourhoods:
             for there, u, v in inside.get((level, side, up), ())
         )
 
-    def _excluded(self, vertex: int) -> tuple[int, ...]:
-        radius = self.radius[0]
-        reach = radius + (radius - TOLERANCE)
-        return tuple(there for there, gap in self.of(vertex) if there == vertex or gap < reach)
-
 
 class RestingPlaces:
     """The vertices at which robots come to rest, and what they leave to others."""
@@ -68,15 +59,11 @@ class RestingPlaces:
         """Of each robot, in the order in which they took them."""
         self._at: dict[int, list[int]] = {}
         """The robots at each vertex."""
-        self._excluded: set[int] = set()
-        """The vertices at which these exclude others, if all robots are equal."""
 
     def add(self, robot: int, vertex: int) -> None:
         """Let a robot rest at a vertex."""
         self.vertex[robot] = vertex
         self._at.setdefault(vertex, []).append(robot)
-        if self._near.are_equal:
-            self._excluded.update(self._near.excluded(vertex))
 
     def count(self, vertex: int) -> int:
         """How many robots rest at a vertex."""
@@ -84,8 +71,6 @@ class RestingPlaces:
 
     def leaves(self, robot: int, vertex: int) -> bool:
         """Tell whether the other robots leave room for a robot at a vertex."""
-        if self._near.are_equal and robot not in self.vertex:
-            return vertex not in self._excluded
         at, radius = self._at, self._near.radius
         for there, gap in self._near.of(vertex):
             for other in at.get(there, ()):

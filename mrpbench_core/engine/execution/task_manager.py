@@ -251,15 +251,16 @@ class TaskManager:
         self._planned_at = now
         self._look_ahead()
         self._planned.ask(self._names.copy())
-        going = [robot for robot in np.flatnonzero(~held).tolist() if self._ways[robot]]
-        ways = [self._costs.nearest_first(self._ways[robot], int(self._head[robot])) for robot in going]
+        heads = self._head.tolist()
+        going = zip(self._ways, heads, held.tolist(), strict=True)
+        ways = [self._costs.nearest_first(way, head) for way, head, stays in going if way and not stays]
         if restricted.roadmap is not self._roadmap:
             ways = [[*takewhile(lambda it: it.yaws, (self._within(restricted, it) for it in way))] for way in ways]
         resting: list[Sequence[Errand]] = []
         moving: list[Sequence[Errand]] = []
         for way in filter(None, ways):
             job = self._board.jobs.get(way[0].task)
-            if self._head[way[0].robot] in way[0].yaws if job is None else not math.isnan(job.since):
+            if heads[way[0].robot] in way[0].yaws if job is None else not math.isnan(job.since):
                 resting.append([way[0].at([*way[0].yaws][:1]), *way[1:]])  # it is there
             else:
                 moving.append(way)

@@ -101,7 +101,7 @@ class RouteTables:
         self.waiting_yaw = self.yaw
         """f8[W] for a robot that waits at a waypoint, NaN = any."""
         if rules.stops or rules.turn_ahead:
-            onward = np.arctan2(heading[row, 1], heading[row, 0])  # NaN at the last
+            onward = np.arctan2(heading[1], heading[0])[row]  # NaN at the last
             self.waiting_yaw = np.where(np.isnan(self.yaw), onward, self.yaw)
         if rules.stops:
             self.yaw = self.waiting_yaw
@@ -117,32 +117,30 @@ class RouteTables:
 
     def _add_legs(self, clearance: Float, enters_lift: Bool) -> Float:
         """Fill the tables of the corners, given the clearance f8[C] there, and whether bool[C] a robot enters a lift;
-        returns the direction f8[C,2] of each leg, NaN after the last corner of a robot.
+        returns the direction f8[2,C] of each leg, NaN after the last corner of a robot.
         """
-        corners, count = self.corners, len(self.corners)
+        corners, count = self.corners.T, len(self.corners)
         is_last = np.zeros(count, bool)
         is_last[self.first_corner + self.last_corner] = True
-        step = np.zeros((count, 2))
-        step[:-1] = np.diff(corners, axis=0)
-        step[is_last] = 0
-        length = np.hypot(step[:, 0], step[:, 1])
-        heading: Float = step / np.where(is_last, np.nan, length)[:, None]
-        self.legs: Float = np.column_stack([corners, step, np.maximum((step * step).sum(axis=1), 1e-300)])
-        """f8[C,5] x, y, step and squared length of the leg from each corner; a robot's last one has no length."""
         after = np.roll(np.arange(count), -1)
-        self.rounding: Float = np.column_stack([corners.take(after, axis=0), heading + heading.take(after, axis=0)])
+        following = corners.take(after, axis=1)
+        step = np.where(is_last, 0, following - corners)
+        length = np.hypot(*step)
+        heading: Float = step / np.where(is_last, np.nan, length)
+        self.legs: Float = _table(*corners, *step, np.maximum((step * step).sum(axis=0), 1e-300))
+        """f8[C,5] x, y, step and squared length of the leg from each corner; a robot's last one has no length."""
+        self.rounding: Float = _table(*following, *(heading + heading.take(after, axis=1)))
         """f8[C,4] the corner at the end of each leg and the direction in which a robot rounds it, NaN = it does not."""
-        self.clearing: Float = np.column_stack([corners, clearance - SLACK])
+        self.clearing: Float = _table(*corners, clearance - SLACK)
         """f8[C,3] each corner and the distance at which it is cleared."""
         self.distance: Float = np.cumsum(length) - length
         """f8[C] metres along the legs of all robots up to each corner."""
         self.is_short: Bool = length <= clearance + SLACK
         """bool[C]: the leg is no longer than the clearance."""
-        yaw = np.arctan2(heading[:, 1], heading[:, 0])
-        turn = np.abs(np.remainder(yaw - np.roll(yaw, 1) + np.pi, 2 * np.pi) - np.pi)
-        self.bend: Int = self._first_from_each((turn > STRAIGHT) | is_last)  # no turn is NaN at either end
+        cosine = (heading * np.roll(heading, 1, axis=1)).sum(axis=0)  # of the turn at each corner, NaN at both ends
+        self.bend: Int = self._first_from_each((cosine < np.cos(STRAIGHT)) | is_last)
         """i8[C]: the first corner of its robot, from each on, at which the direction changes, or the last."""
-        self.reversal: Int = self._first_from_each((turn > BACK) | is_last)
+        self.reversal: Int = self._first_from_each((cosine < np.cos(BACK)) | is_last)
         """i8[C]: the first corner of its robot, from each on, at which it turns back, or the last."""
         self.lift: Int = self._first_from_each(enters_lift | is_last)
         """i8[C]: the first corner of its robot, from each on, at which it enters a lift, or the last."""
@@ -157,13 +155,9 @@ class RouteTables:
 
     def _arrival(self, waypoint: Float, row: Int, heading: Float, rules: ArrivalRules) -> Float:
         goal = self.first + self.goal
-        arrival: Float = np.empty((len(waypoint), 6))
-        arrival[:, :2] = waypoint[:, :2]
-        arrival[:, 2] = rules.waypoint_tolerance
+        into = np.roll(heading, 1, axis=1).take(row, axis=1)  # NaN at each first corner
+        arrival = _table(*waypoint[:, :2].T, rules.waypoint_tolerance, *into, into[0] * 0 + rules.passing_tolerance)
         arrival[goal, 2] = np.minimum(rules.xy_goal_tolerance, self._leaving(rules.waypoint_tolerance))
-        into = np.concatenate([np.full((1, 2), np.nan), heading[:-1]])[: len(heading)]  # NaN at each first corner
-        arrival[:, 3:5] = into.take(row, axis=0)
-        arrival[:, 5] = arrival[:, 3] * 0 + rules.passing_tolerance
         arrival[goal, 3:] = np.nan
         return arrival
 
@@ -174,3 +168,12 @@ class RouteTables:
         into_goal = self.first_corner + np.maximum(self.last_corner - 1, 0)
         room: Float = np.sqrt(self.legs[into_goal, 4]) - self.clearing[into_goal, 2]
         return np.where((self.last_corner == 0) | self.is_short[into_goal], np.inf, np.maximum(room, least))
+
+
+def _table(first: Float, *others: Float | float) -> Float:
+    """An array f8[k,c] of c columns; k values of a column are written faster than c values of a row."""
+    columns = (first, *others)
+    table: Float = np.empty((len(first), len(columns)))
+    for index, column in enumerate(columns):
+        table[:, index] = column
+    return table

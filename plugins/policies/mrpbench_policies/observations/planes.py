@@ -55,9 +55,8 @@ class Primal(Observation):
         own = (goals - cells).reshape(-1, 2) + radius
         (near,) = self._in_window(own).nonzero()
         planes[near, 1, own[near, 0], own[near, 1]] = 1.0
-        other_robots = ~np.eye(state.place.shape[1], dtype=bool) & state.active[:, None]
-        seen = self._in_window(cells[:, None] - cells[:, :, None] + radius) & other_robots
-        environment, robot, other = seen.nonzero()
+        seen = self._in_window(cells[:, None] - cells[:, :, None] + radius) & state.active[:, None]
+        environment, robot, other = np.nonzero(seen & ~np.eye(state.place.shape[1], dtype=bool))
         away = np.clip(goals[environment, other] - cells[environment, robot] + radius, 0, side - 1)
         planes[environment * state.place.shape[1] + robot, 2, away[:, 0], away[:, 1]] = 1.0
         obstacles = (maps.blocked | maps.outside).astype(np.float32)
@@ -65,7 +64,7 @@ class Primal(Observation):
 
     def _in_window(self, cell: Int) -> Bool:
         """Tell which cells [...,2], counted from the first one of a window, are in it."""
-        inside: Bool = ((cell >= 0) & (cell < self.side)).all(axis=-1)
+        inside: Bool = np.all((cell >= 0) & (cell < self.side), axis=-1)
         return inside
 
 

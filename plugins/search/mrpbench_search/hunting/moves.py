@@ -4,7 +4,8 @@ Robots that never meet break nothing. New cases therefore lead pairs of robots a
 the same time, or all robots through one vertex, and some robots through the start or goal of another one. The edge
 begins at any vertex, or, more often, at one of a kind (`Space.kinds`): all kinds have the same probability, so that a
 junction of which there is one is tried as often as those of which there are many. In half of the new cases all pairs
-meet at one vertex. Of several cases that moves make, the one is taken in which most robots would meet if they drove
+meet at one vertex. Tasks over time belong to no robot: of these some that follow one another get goals near one vertex
+at about the same time. Of several cases that moves make, the one is taken in which most robots would meet if they drove
 alone (`meetings`).
 """
 
@@ -28,6 +29,8 @@ EXACT = 1e-3
 """Ticks by which equal ways may differ."""
 SAME_TIME = 1.0
 """Durations of an edge by which two robots that meet there may differ, as they drive alone."""
+LATER = 2.0
+"""Mean or standard deviation in seconds of the time between tasks that move to about the same time."""
 NEAR = 6
 """Places among which a start or goal moves."""
 NUDGE = 0.1
@@ -67,12 +70,14 @@ class Moves:
         case = self.drawn(int(self.rng.integers(len(self.space.scenarios))))
         order = self.rng.permutation(case.robots).tolist()
         vertex = self._vertex() if self.rng.random() < 0.5 else None
-        if case.robots > 2 and self.rng.random() < 0.5:
+        if case.stream is not None:
+            case = self._gathered(case)
+        elif case.robots > 2 and self.rng.random() < 0.5:
             case = self._crossing(case, order, self._vertex() if vertex is None else vertex)
         else:
             for pair in zip(order[::2], order[1::2], strict=False):
                 case = self._meeting(case, *pair, vertex)
-        if case.robots > 1 and self.rng.random() < 0.25:
+        if case.robots > 1 and case.stream is None and self.rng.random() < 0.25:
             case = self._passing(case, *order[:2])
         events = (
             event if event.get("at") is None else event | self._elsewhere(case, event | {"place": None})
@@ -95,7 +100,7 @@ class Moves:
             moves += [self._exchanged, lambda it: self._meeting(it, *self._two(it.robots))]
             moves.append(lambda it: self._passing(it, *self._two(it.robots)))
         if case.stream is not None and len(case.stream) > 1:
-            moves += [self._other_times, self._other_order]
+            moves += [self._other_times, self._other_order, self._gathered]
         if case.events:
             moves += 2 * [lambda it: self._other_event(it, int(self.rng.integers(len(it.events))))]
         if any(block.get("given") for block in case.crowds):
@@ -162,10 +167,10 @@ class Moves:
     def _passing(self, case: Case, one: int, other: int) -> Case:
         """Lead a robot through the place at which another one starts, or ends."""
         space, scenario = self.space, case.scenario
-        position, level = scenario.start[other, :2], scenario.start_level[other]
-        if other < len(case.tasks) and case.stream is None and self.rng.random() < 0.5:
-            position, level = case.tasks[other].goals[-1, :2], case.tasks[other].levels[-1]
-        vertex = int(space.vertex[space.place_of(*position.tolist(), int(level))])
+        pose, level = scenario.start[other], scenario.start_level[other]
+        if other < len(case.tasks) and self.rng.random() < 0.5:
+            pose, level = case.tasks[other].goals[-1], case.tasks[other].levels[-1]
+        vertex = int(space.vertex[space.place_of(pose, int(level))])
         able = np.flatnonzero(np.isfinite(space.distance[:, vertex]) & (space.distance[:, vertex] > 0))
         for start in self.rng.permutation(able).tolist()[:TRIES]:
             goal = self._beyond(start, vertex, start)
@@ -174,6 +179,19 @@ class Moves:
                 if self._has_room(found):
                     return found
         return case
+
+    def _gathered(self, case: Case) -> Case:
+        """Let tasks over time that follow one another have goals near one vertex, at about the same time."""
+        first = int(self.rng.integers(len(case.tasks)))
+        to = self.space.distance[:, self._vertex()]
+        able = np.flatnonzero(np.isfinite(to))
+        near = able[np.argsort(to[able], kind="stable")]
+        tasks, release = list(case.tasks), case.tasks[first].release
+        for index in range(first, min(first + case.robots, len(tasks))) if len(near) else ():
+            row = int(self.rng.integers(len(tasks[index].goals)))
+            tasks[index] = _at(self._to(tasks[index], row, self._near(near)), release)
+            release += float(self.rng.exponential(LATER))
+        return case.with_tasks(tuple(tasks))
 
     def _vertex(self) -> int:
         """A vertex at which robots meet."""
@@ -201,16 +219,15 @@ class Moves:
 
     def _moved_start(self, case: Case) -> Case:
         robot = int(self.rng.integers(case.robots))
-        x, y = case.scenario.start[robot, :2].tolist()
-        near = self.space.nearest(self.space.place_of(x, y, int(case.scenario.start_level[robot])), NEAR)
+        place = self.space.place_of(case.scenario.start[robot], int(case.scenario.start_level[robot]))
+        near = self.space.nearest(place, NEAR)
         return self._tried(case, lambda place: self._placed(case, robot, place, None), near)
 
     def _moved_goal(self, case: Case) -> Case:
         index = int(self.rng.integers(len(case.tasks)))
         task = case.tasks[index]
         row = int(self.rng.integers(len(task.goals)))
-        x, y = task.goals[row, :2].tolist()
-        near = self.space.nearest(self.space.place_of(x, y, int(task.levels[row])), NEAR)
+        near = self.space.nearest(self.space.place_of(task.goals[row], int(task.levels[row])), NEAR)
         return self._tried(case, lambda place: self._with_goal(case, index, row, place), near)
 
     def _exchanged(self, case: Case) -> Case:
@@ -226,7 +243,7 @@ class Moves:
         """Release a task at about the time of another one."""
         tasks = list(case.tasks)
         one, other = self._two(len(tasks))
-        release = max(0.0, tasks[other].release + float(self.rng.normal(0, 2)))
+        release = max(0.0, tasks[other].release + float(self.rng.normal(0, LATER)))
         tasks[one] = _at(tasks[one], release)
         return case.with_tasks(tuple(tasks))
 
@@ -265,12 +282,12 @@ class Moves:
         """A place beside the way of a robot."""
         robot = int(self.rng.integers(case.robots))
         task = case.tasks[robot % len(case.tasks)]
-        ends = [(*case.scenario.start[robot, :2], int(case.scenario.start_level[robot]))]
-        ends.append((*task.goals[0, :2], int(task.levels[0])))
+        ends = [(case.scenario.start[robot], int(case.scenario.start_level[robot]))]
+        ends.append((task.goals[0], int(task.levels[0])))
         detour = self.space.between(*(self.space.place_of(*end) for end in ends))
         vertex = int(self.rng.choice(np.flatnonzero(detour <= max(1e-3, float(detour.min())))))
         place = self.space.vertex_position[vertex] + self.rng.normal(0, ASIDE, 2)
-        return {"place": [round(float(x), 3) for x in place], "level": ends[0][2]}
+        return {"place": [round(float(x), 3) for x in place], "level": ends[0][1]}
 
     def _other_people(self, case: Case) -> Case:
         """Let one of the people who are `given` start elsewhere, and walk to elsewhere."""
@@ -307,10 +324,14 @@ class Moves:
 
     def _with_goal(self, case: Case, index: int, row: int, place: int) -> Case:
         tasks = list(case.tasks)
-        goals, levels = tasks[index].goals.copy(), tasks[index].levels.copy()
-        goals[row], levels[row] = (*self.space.position[place], np.nan), self.space.level[place]
-        tasks[index] = attrs.evolve(tasks[index], goals=goals, levels=levels, name="")
+        tasks[index] = self._to(tasks[index], row, place)
         return case.with_tasks(tuple(tasks))
+
+    def _to(self, task: Task, row: int, place: int) -> Task:
+        """A task with another place."""
+        goals, levels = task.goals.copy(), task.levels.copy()
+        goals[row], levels[row] = (*self.space.position[place], np.nan), self.space.level[place]
+        return attrs.evolve(task, goals=goals, levels=levels, name="")
 
     def _tried(self, case: Case, change: Callable[[int], Case], places: Int) -> Case:
         for place in self.rng.permutation(places).tolist():

@@ -32,13 +32,14 @@ def reason_of(kind: str, tried: Property, records: Sequence[Record], results: Re
 
 
 def signature(kind: str, reason: str, robots: Sequence[str]) -> str:
-    """Return the same text for failures that differ only in robots, places and times."""
+    """Return the same text for failures that differ only in robots, their number and order, places and times."""
     text = reason
     for name in sorted(robots, key=len, reverse=True):
         text = text.replace(name, "robot")
     text = _NUMBER.sub("#", text)
-    text = re.sub(r"(robot)((?:, | and |; )+robot)+", r"\1", text)
-    return f"{kind}: {'; '.join(dict.fromkeys(part.strip() for part in text.split(';')))}"
+    text = re.sub(r"(robot)((?:, | and )+robot)+", r"\1", text)
+    parts = {part for part in re.split("[;:] ", text) if not part.startswith("…")}
+    return f"{kind}: {'; '.join(sorted(parts))}"
 
 
 def robots_of(record: Record, results: Results) -> tuple[str, ...]:

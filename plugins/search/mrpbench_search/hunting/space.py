@@ -35,7 +35,7 @@ class Space:
     scenarios: tuple[Scenario, ...]
     """By seed."""
     streams: tuple[tuple[Task, ...], ...] | None
-    """Tasks over time by seed; None without a task source."""
+    """Tasks over time by seed, at least one, of another seed where none is released; None without a task source."""
     position: Float
     """f8[p,2] of the places, metres."""
     level: Int16
@@ -55,7 +55,7 @@ class Space:
     room: float
     """Least distance between two starts, and between two goals, metres."""
     tick: float
-    """seconds."""
+    """Seconds of a tick."""
 
     def between(self, one: int, other: int) -> Float:
         """Return by how much ways from place `one` to place `other` are longer through each vertex, f8[V] ticks."""
@@ -70,9 +70,9 @@ class Space:
         order: Int = np.argsort(ways, kind="stable")[:count]
         return np.extract(np.isfinite(ways[order]), order)
 
-    def place_of(self, x: float, y: float, level: int) -> int:
-        """Return the place at a position, or the nearest one on its level."""
-        squared = ((self.position - (x, y)) ** 2).sum(axis=1)
+    def place_of(self, pose: Float, level: int) -> int:
+        """Return the place at the position of a pose f8[3], or the nearest one on its level."""
+        squared = ((self.position - pose[:2]) ** 2).sum(axis=1)
         return int(np.where(self.level == level, squared, np.inf).argmin())
 
 
@@ -84,14 +84,18 @@ def read_space(point: StudyRun, first: int) -> Space:
         first: seed of the first draw.
 
     Raises:
-        InputError: nothing can be drawn, or tasks depend on what is finished.
+        InputError: nothing can be drawn, no task is released, or tasks depend on what is finished.
     """
     seeds = list(range(first, first + DRAWS))
     drawn = in_worker("the scenarios of the study cannot be drawn", draw, point.parcel, seeds)
     scenarios = tuple(decode(each, Scenario, inlined_array) for each in drawn["scenarios"])
     streams = None
     if drawn["streams"] is not None:
-        streams = tuple(tuple(decode(task, Task, inlined_array) for task in each) for each in drawn["streams"])
+        drawn_tasks = [tuple(decode(task, Task, inlined_array) for task in each) for each in drawn["streams"]]
+        some = next(filter(None, drawn_tasks), None)
+        if some is None:
+            raise InputError("tasks: none is released within limits.execution", hint="raise the limit or the rate")
+        streams = tuple(each or some for each in drawn_tasks)
     roadmap = {name: inlined_array(text) for name, text in drawn["roadmap"].items()}
     poses, levels = _places(scenarios, streams)
     most = max(2, MOST_DISTANCES // max(1, len(roadmap["position"])))
@@ -155,7 +159,7 @@ def draw(parcel: Mapping[str, Any], seeds: Sequence[int]) -> dict[str, Any]:
         "roadmap": arrays,
         "resources": [[resource.kind, list(resource.vertices)] for resource in roadmap.resources],
         "room": 2 * float(found.fleet.radii.max()),
-        "tick": roadmap.tick,
+        "tick": float(roadmap.tick),
     }
 
 

@@ -36,9 +36,10 @@ mean; `make hunts` counts them."""
 
 @pytest.fixture
 def hall(mrpbench):
-    for needed in ("mrpbench_planners_example", "mrpbench_controllers_pure_pursuit"):
-        pytest.importorskip(needed)
-    Path("faulty.py").write_text((Path(__file__).parents[1] / "hunting" / "faulty.py").read_text())
+    for needed in ("planners_example", "controllers_pure_pursuit", "assigners_greedy"):
+        pytest.importorskip(f"mrpbench_{needed}")
+    for name in ("faulty.py", "other_faults.py"):
+        Path(name).write_text((Path(__file__).parents[1] / "hunting" / name).read_text())
     Path("hall.map").write_text(f"type octile\nheight 9\nwidth 12\nmap\n{HALL}")
     Path("hall.yaml").write_text(STUDY)
     return mrpbench
@@ -66,12 +67,21 @@ def test_a_fault_at_one_junction_is_found_shrunk_and_repeated(hall):
     assert record["error"]["message"].partition(" (")[0] == failure["reason"].partition(" (")[0]
 
 
-@pytest.mark.parametrize("chosen", ["dispatcher=./faulty.py:ReleasesEarly", "controller=./faulty.py:BlindLeft"])
+@pytest.mark.parametrize(
+    "chosen",
+    [
+        ("planner=example", "dispatcher=./faulty.py:ReleasesEarly"),
+        ("planner=example", "controller=./faulty.py:BlindLeft"),
+        ("planner=./other_faults.py:ForgetsParked",),
+        ("planner=example", "dispatcher=./other_faults.py:LosesWakeUp"),
+    ],
+)
 def test_the_faults_that_make_hunts_searches_for_are_rare(hall, chosen):
-    words = ("planner=example", "simulator=kinematic", "control_rate=5", "limits.execution=90 s", "seed=0")
+    words = ("simulator=kinematic", "control_rate=5", "limits.execution=90 s", "seed=0")
     world = "world={plugin: movingai, file: hall.map, resolution: 1}"
-    assert hall("run", "hall.yaml", *words, world, "scenario.robots=2", "metrics=[execution]", chosen)[0] == 0
+    assert hall("run", "hall.yaml", *words, world, "scenario.robots=2", "metrics=[execution]", *chosen)[0] == 0
     (record,) = load("results/hall")
+    assert record["status"] == "succeeded"
     assert record["metrics"]["execution.robot_contacts"] == 0
 
 
@@ -82,6 +92,15 @@ def test_a_budget_ends_a_hunt_that_finds_nothing(hall):
     assert "the budget is spent" in output
 
 
+def test_a_hunt_goes_on_where_no_task_is_released_with_the_first_seed(hall):
+    world = "world={plugin: movingai, file: hall.map, resolution: 1}"
+    words = (world, "planner={plugin: rolling_horizon, planner: pibt}", "simulator=kinematic", "control_rate=5")
+    tasks = ("tasks={plugin: poisson, rate: 0.5}", "limits.execution=10 s", "scenario.robots=2", "assigner=hungarian")
+    code, output, errors = hall("hunt", "hall.yaml", *words, *tasks, "--budget", "4runs", "--for", "crash", "--json")
+    assert code == 0, errors
+    assert json.loads(output)["cases"] == 4
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -90,6 +109,7 @@ def test_a_budget_ends_a_hunt_that_finds_nothing(hall):
         (("--for", "cbs worse than example by 20 %"), "the study has no candidate 'cbs'"),
         (("--most", "0"), "--most 0: at least 1"),
         (("tasks=closed_pool", "simulator=kinematic"), "releases tasks when others are done"),
+        (("tasks={plugin: poisson, rate: 0.0001}", "simulator=kinematic"), "tasks: none is released"),
     ],
 )
 def test_mistakes_are_one_line(hall, words, message):

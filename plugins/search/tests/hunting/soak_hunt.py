@@ -1,9 +1,10 @@
-"""Hunts for three planted faults and counts the runs until each is found, with several seeds of the search.
+"""Hunts for planted faults and counts the runs until each is found, with several seeds of the search.
 
-    python plugins/search/tests/hunting/soak_hunt.py 5      # searches for each fault
-    python plugins/search/tests/hunting/soak_hunt.py 5 200  # also random seeds for the two faults of executions
+    python plugins/search/tests/hunting/soak_hunt.py 5              # searches for each fault
+    python plugins/search/tests/hunting/soak_hunt.py 5 200          # also so many random seeds
+    python plugins/search/tests/hunting/soak_hunt.py 5 200 wake_up  # for one fault
 
-The fault of the planner is compared with `RANDOM` of `test_hunt.py`, others with as many random seeds as are stated.
+The fault of `planner` is compared with `RANDOM` of `test_hunt.py`, others with as many random seeds as are stated.
 """
 
 import json
@@ -18,6 +19,7 @@ from pathlib import Path
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE.parent / "commands"))
 
+from mrpbench_search.hunting.properties import read_property  # noqa: E402
 from test_hunt import HALL, RANDOM, STUDY  # noqa: E402
 
 EXECUTED = """\
@@ -25,11 +27,13 @@ name: {name}
 world: {{plugin: movingai, file: hall.map, resolution: {cell}}}
 roadmap: grid
 scenario: {{plugin: random, robots: {robots}}}
-assigner: identity
-planner: example
 control_rate: 10
 recording: {{rate: 5}}
 metrics: [planning, execution, people]
+"""
+ONCE = """\
+assigner: identity
+planner: example
 """
 DISPATCHER = """\
 fleet: {robot: turtlebot3_burger, lidar: none}
@@ -41,28 +45,40 @@ controller: {plugin: "./faulty.py:BlindLeft"}
 limits: {execution: 120 s}
 faults: {events: [{kind: blocked, at: 1 s}], patience: 10 s}
 """
+WAKE_UP = DISPATCHER.replace("faulty.py:ReleasesEarly", "other_faults.py:LosesWakeUp") + "seed: 1  # 0 shows it\n"
+SAME_GOAL = """\
+fleet: {robot: turtlebot3_burger, lidar: none}
+tasks: {plugin: poisson, rate: 3}
+assigner: {plugin: "./other_faults.py:KeyedByGoal"}
+planner: {plugin: rolling_horizon, planner: pibt}
+limits: {execution: 60 s}
+"""
 STUDIES = {
     "planner": (STUDY, "invalid"),
-    "dispatcher": (EXECUTED.format(name="dispatcher", cell=0.5, robots=4) + DISPATCHER, "contact"),
-    "controller": (EXECUTED.format(name="controller", cell=1, robots=2) + CONTROLLER, "contact"),
+    "dispatcher": (EXECUTED.format(name="dispatcher", cell=0.5, robots=4) + ONCE + DISPATCHER, "contact"),
+    "controller": (EXECUTED.format(name="controller", cell=1, robots=2) + ONCE + CONTROLLER, "contact"),
+    "parked": (STUDY.replace("faulty.py:SwapsAtJunctions", "other_faults.py:ForgetsParked"), "invalid"),
+    "wake_up": (EXECUTED.format(name="wake_up", cell=0.5, robots=5) + ONCE + WAKE_UP, "failure"),
+    "same_goal": (EXECUTED.format(name="same_goal", cell=0.5, robots=3) + SAME_GOAL, "crash"),
 }
 BUDGET = "250runs"
-CONTACTS = ("execution.robot_contacts", "execution.wall_contacts", "people.contacts_per_robot_h")
 
 
-def main(searches: int, seeds: int) -> None:
-    """Print one row for each fault."""
+def main(searches: int, seeds: int, names: list[str]) -> None:
+    """Print two lines for each fault."""
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        shutil.copy(HERE / "faulty.py", folder)
+        for file in ("faulty.py", "other_faults.py"):
+            shutil.copy(HERE / file, folder)
         Path("hall.map").write_text(f"type octile\nheight 9\nwidth 12\nmap\n{HALL}")
-        for name, (study, kind) in STUDIES.items():
+        for name in names or STUDIES:
+            study, kind = STUDIES[name]
             Path(f"{name}.yaml").write_text(study)
             found = [hunt(name, kind, seed) for seed in range(searches)]
             after = [each["found_after"] if each else 250 for each in found]
-            robots = statistics.median(each["robots"] for each in found if each)
+            robots = statistics.median([each["robots"] for each in found if each] or [0])
             again = [f"{each['again']}/{each['repeats']}" for each in found if each]
-            needed = f"1 of {RANDOM}" if name == "planner" else random_seeds(name, seeds)
+            needed = f"1 of {RANDOM}" if name == "planner" else random_seeds(name, kind, seeds)
             print(f"{name}: found after {after} cases, median {statistics.median(after):g}", flush=True)
             print(f"  shrunk to {robots:g} robots (median), again {again}, random seeds {needed}", flush=True)
 
@@ -74,14 +90,14 @@ def hunt(name: str, kind: str, seed: int) -> dict[str, int] | None:
     return next(iter(answer["failures"]), None)
 
 
-def random_seeds(name: str, count: int) -> str:
+def random_seeds(name: str, kind: str, count: int) -> str:
     """Say how many of so many random seeds show the fault."""
     if not count:
         return "not run"
     mrpbench("run", f"{name}.yaml", f"seed=0..{count - 1}", "--out", f"{name}-random")
     lines = [line for file in Path(f"{name}-random", "runs").iterdir() for line in file.read_text().splitlines()]
-    metrics = [json.loads(line)["metrics"] for line in lines]
-    return f"{sum(any(each.get(column) for column in CONTACTS) for each in metrics)} of {count}"
+    tried = read_property(kind, ("",), {}, None)
+    return f"{sum(bool(tried.judge([json.loads(line)]).failures) for line in lines)} of {count}"
 
 
 def mrpbench(*words: object) -> str:
@@ -91,4 +107,4 @@ def mrpbench(*words: object) -> str:
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0)
+    main(int(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0, sys.argv[3:])

@@ -6,12 +6,12 @@ import attrs
 import numpy as np
 import pytest
 from mrpbench_search.hunting.cases import Case
-from mrpbench_search.hunting.meetings import meetings
+from mrpbench_search.hunting.meetings import drives, meetings
 from mrpbench_search.hunting.space import Space, _kinds, _ways
 
 from mrpbench_core.model.planning.scenario import Scenario, Task
 
-LENGTH = 9
+LENGTH, INF = 9, math.inf
 POSITION = np.array([(float(x), 0.0) for x in range(LENGTH)] + [(float(x), 5.0) for x in range(LENGTH)])
 EDGES = np.array(
     [edge for row in (0, LENGTH) for x in range(row, row + LENGTH - 1) for edge in ((x, x + 1), (x + 1, x))]
@@ -39,7 +39,7 @@ SPACE = Space(
     vertex_position=POSITION,
     kinds=_kinds(EDGES, len(POSITION), []),
     room=0.5,
-    tick=1.0,
+    tick=0.5,
     **_ways(ROADMAP, POSITION, ROADMAP["level"]),
 )
 
@@ -50,35 +50,52 @@ SPACE = Space(
         ([(0, 8), (8, 0)], [0]),  # head on, in the middle at the same time
         ([(0, 8), (7, 0)], [1]),  # head on, half an edge from a vertex
         ([(0, 7), (3, 8)], [3]),  # one after the other
-        ([(0, 8), (3, 6)], [0]),  # the goal of one lies on the way of the other one
         ([(0, 8), (9, 17)], []),  # in different aisles
-        ([(0, 8), (8, 0), (4, 5)], [0, 0, 0]),
+        ([(0, 8), (8, 0), (4, 5)], [0, 0, 0]),  # the third robot stands where the others come later
+        ([(0, 8), (4, 4)], [0]),  # through the goal of a robot that stands there
+        ([(0, 3), (8, 4)], []),
+        ([(0, 4), (5, 8)], []),
+        ([(1, 8), (0, 3)], [1]),
     ],
 )
 def test_the_least_gaps_of_pairs_count(ways, gaps):
     assert meetings(SPACE, case_of(*ways)) == pytest.approx(sum(math.exp(-gap) for gap in gaps))
 
 
-def over_time(*goals):
-    """Two robots at the ends of an aisle, and tasks: when each is released, and its goals."""
-    tasks = [
-        Task(goals=[(*POSITION[goal], np.nan) for goal in each], levels=[0] * len(each), release=release, index=index)
-        for index, (release, each) in enumerate(goals)
-    ]
-    return attrs.evolve(case_of((0, 0), (8, 8)), stream=tuple(tasks))
+def over_time(starts, tasks):
+    """Robots at vertices, and tasks as (release in seconds, vertex, seconds of service)."""
+    case = case_of(*((start, start) for start in starts))
+    stream = tuple(Task(goals=[(*POSITION[goal], np.nan)], release=at, service=[rest]) for at, goal, rest in tasks)
+    return attrs.evolve(case, scenario=attrs.evolve(case.scenario, tasks=()), stream=stream)
 
 
-def test_a_task_over_time_is_done_by_the_robot_that_comes_to_it_first():
-    assert meetings(SPACE, over_time((0, [1]), (0, [7]))) == 0.0
-    assert meetings(SPACE, over_time((0, [1, 5]), (0, [7, 4]))) == 1.0  # one stays at 5, on the way of the other one
-    late = over_time((0, [3]), (100, [2]))  # the robot at 3 is nearer than the one at 8
-    assert meetings(SPACE, late) == 0.0
+@pytest.mark.parametrize(
+    ("starts", "tasks", "drives_of"),
+    [
+        (
+            [0, 8],
+            [(0, 2, 0), (0, 6, 0)],
+            [[{0: (0, 0), 1: (2, 2), 2: (4, INF)}], [{8: (0, 0), 7: (2, 2), 6: (4, INF)}]],
+        ),
+        ([0, 8], [(3, 1, 0)], [[{0: (0, 6), 1: (8, INF)}], [{8: (0, INF)}]]),  # a tick is half a second
+        ([0, 8], [(0, 1, 2), (1, 2, 0)], [[{0: (0, 0), 1: (2, 6)}, {1: (6, 6), 2: (8, INF)}], [{8: (0, INF)}]]),
+        ([0, 4], [(0, 1, 20), (1, 2, 0)], [[{0: (0, 0), 1: (2, INF)}], [{4: (0, 2), 3: (4, 4), 2: (6, INF)}]]),
+        ([4], [(0, 4, 1), (9, 13, 0)], [[{4: (0, INF)}]]),  # nobody comes to the other aisle
+    ],
+)
+def test_tasks_over_time_are_done_by_the_robot_that_is_there_first(starts, tasks, drives_of):
+    assert drives(SPACE, over_time(starts, tasks)) == drives_of
 
 
-def test_tasks_over_time_that_cannot_be_done_at_the_same_time_meet_less():
-    near = meetings(SPACE, over_time((0, [3, 0]), (0, [5, 2])))
-    assert near > meetings(SPACE, over_time((0, [3, 0]), (60, [5, 2]))) > 0
+def test_tasks_over_time_that_bring_robots_together_count_more():
+    apart = over_time([0, 8], [(0, 1, 0), (0, 7, 0)])
+    together = over_time([0, 8], [(0, 5, 20), (0, 6, 0)])
+    later = over_time([0, 8], [(0, 4, 0), (90, 3, 0)])
+    assert meetings(SPACE, apart) == 0
+    assert meetings(SPACE, together) == 1
+    assert meetings(SPACE, later) == 0
 
 
-def test_a_goal_that_cannot_be_reached_meets_no_robot():
-    assert meetings(SPACE, case_of((0, 17), (8, 0))) == 0.0
+def test_a_robot_that_cannot_reach_its_goal_stands_at_its_start():
+    assert meetings(SPACE, case_of((0, 17), (8, 0))) == 1
+    assert meetings(SPACE, case_of((0, 17), (8, 1))) == 0

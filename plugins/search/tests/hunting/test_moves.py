@@ -83,6 +83,18 @@ def test_two_robots_of_a_new_case_meet_head_on_at_about_the_same_time(seed):
         assert meets(*ends[0], *ends[1])
 
 
+@given(st.integers(0, 10**6))
+def test_tasks_over_time_come_to_one_vertex_at_about_the_same_time(seed):
+    tasks = tuple(Task(goals=FIRST.tasks[at % 4].goals, release=20.0 * at, deadline=20.0 * at + 9) for at in range(8))
+    case = Case(scenario=attrs.evolve(FIRST.scenario, tasks=()), seed=0, stream=tasks)
+    gathered = moves(seed)._gathered(case)
+    moved = [task for task in gathered.tasks if task.release % 20]
+    first = min((task.release for task in moved), default=0.0) // 20 * 20
+    assert len(moved) <= 3
+    assert all(first < task.release == pytest.approx(task.deadline - 9) for task in moved)
+    assert [task.index for task in gathered.tasks] == list(range(8))
+
+
 def test_nearly_all_new_cases_have_such_a_pair():
     made = moves(0)
     assert sum(made._meeting(FIRST, 1, 2) is not FIRST for _ in range(100)) > 80

@@ -103,3 +103,13 @@ def test_the_same_failure_of_other_robots_at_other_times_has_the_same_signature(
     one = signature("stuck", "robot_1 waits for robot_11, which stopped for good at 5.0 s", robots)
     assert one == signature("stuck", "robot_10 waits for robot_2, which stopped for good at 41.5 s", robots)
     assert one != signature("stuck", "robot_1 waits for door_2", robots)
+
+
+def test_the_number_and_the_order_of_robots_that_are_listed_make_no_other_failure():
+    many = "not all arrived: robot_0 waits for robot_2; robot_2 was under way; robot_3 waits for robot_0; … (4 robots)"
+    few = "not all arrived: robot_1 was under way; robot_2 waits for robot_1"
+    robots = [f"robot_{index}" for index in range(4)]
+    assert signature("deadlock", many, robots) == signature("deadlock", few, robots)
+    assert signature("deadlock", many, robots) != signature(
+        "deadlock", "not all arrived: robot_1 was under way", robots
+    )
