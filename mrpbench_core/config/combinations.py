@@ -20,6 +20,7 @@ from mrpbench_core.config.shared import Shared
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.robot import load_robot
 from mrpbench_core.model.common.fleet import RobotModel
+from mrpbench_core.model.planning.problem import Feature
 from mrpbench_core.plugins.provenance import origin
 
 IDLE = "has no effect: "
@@ -29,6 +30,11 @@ BETWEEN_STEPS = (
 )
 """Keys that do not change what a discrete simulator does."""
 NO_SIMULATOR = f"{IDLE}there is no simulator"
+GROWS = (
+    "planner: {} is given all that robots drove since the beginning, so that plans take ever longer; a planner in"
+    " `rolling_horizon` is not"
+)
+"""Of planners that do not know `Feature.SINCE`, where tasks come over time."""
 
 
 def refusals(config: RunConfig, root: Item) -> list[InputError]:
@@ -119,6 +125,10 @@ class IdleOptions:
                     idle = self._shared(_idle_options, component)
                     self._of_components |= dict.fromkeys(self._shared(_notes, component))
                     unused |= {f"{block}.{name}": IDLE + reason for name, reason in idle.items()}
+        simulator, planner = config.simulator, config.planner
+        plans = config.tasks is not None and simulator is not None and not simulator.executes_runs
+        if plans and Feature.SINCE not in planner.supports:
+            self._of_components[GROWS.format(_name(planner))] = None
         if config.controller is not None:
             for entry in config.fleet:
                 self._of_components |= dict.fromkeys(self._shared(_robot_notes, config.controller, str(entry.robot)))

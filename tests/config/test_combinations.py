@@ -131,3 +131,11 @@ def test_an_option_without_effect_is_named_with_the_reason(changes, note):
 )
 def test_options_with_effect_in_some_run_are_not_named(changes):
     assert notes(**changes) == ()
+
+
+def test_planners_that_are_given_all_that_was_driven_are_named_where_tasks_come_over_time():
+    tasks = {"plugin": "poisson", "rate": 2}
+    (note,) = notes(tasks=tasks)
+    assert note.startswith("planner: example is given all that robots drove since the beginning")
+    assert notes(tasks=tasks, planner={"plugin": "rolling_horizon", "planner": "example"}) == ()
+    assert notes() == ()
