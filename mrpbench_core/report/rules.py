@@ -50,9 +50,8 @@ exact test (interval of Bonett and Price; if scenarios were repeated, by sign fl
 there are too many to try all, and by the normal distribution if more than {MANY} pairs differ). Values are compared by
 Wilcoxon's signed-rank test (equal pairs are dropped; bootstrap
 interval of the mean difference). p is adjusted by Holm for all tests of the table that could be significant (six pairs
-must differ). A difference is significant if the adjusted p < {SIGNIFICANT:g}. Below the threshold of the column,
-a significant difference is too small to matter. The ranks decide between better and worse. If the mean has the other
-sign, a few large differences oppose many small ones, and the table says so.
+must differ). A difference is significant if the adjusted p < {SIGNIFICANT:g}. The ranks decide between better and
+worse. If the mean has the other sign, a few large differences oppose many small ones, and the table says so.
 """
 
 RULES: tuple[tuple[str, str], ...] = tuple(

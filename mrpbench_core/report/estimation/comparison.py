@@ -41,22 +41,12 @@ class Comparison:
 
     @property
     def verdict(self) -> str:
-        """What the test shows of the second: better, worse, different (no direction is known), or one of two others."""
+        """The verdict on the second: better, worse, different (where no direction is known), or not shown to differ."""
         if self.p_adjusted >= SIGNIFICANT:
             return "not shown"
-        if not direction(self.column):
-            return "different"
-        if abs(self.paired.difference.value) < (self.least_noticeable or 0.0):
-            return "too small to matter"
-        return "better" if direction(self.column) * self.paired.effect > 0 else "worse"
-
-    @property
-    def least_noticeable(self) -> float | None:
-        """The smallest difference of these means that matters; None if the column declares no threshold."""
-        column, paired = self.column, self.paired
-        if column.threshold is None:
-            return None
-        return max(column.threshold, column.threshold_share * max(abs(paired.first), abs(paired.second)))
+        return {1: "better", -1: "worse", 0: "different"}[
+            direction(self.column) * (1 if self.paired.effect > 0 else -1)
+        ]
 
 
 def compare_pair(runs: Runs, setting: Setting, first: int, second: int, columns: Iterable[Column]) -> list[Comparison]:

@@ -36,7 +36,7 @@ class Relation(StrEnum):
 def relation(comparison: Comparison) -> Relation:
     """Return what is known of the second group, compared with the first."""
     paired, column = comparison.paired, comparison.column
-    difference, threshold = paired.difference, comparison.least_noticeable
+    difference, threshold = paired.difference, least_noticeable(comparison)
     if paired.ties == difference.n:
         return Relation.IDENTICAL
     if not is_shown(comparison):
@@ -55,6 +55,14 @@ def is_shown(comparison: Comparison) -> bool:
     paired = comparison.paired
     one_side = paired.difference.low > 0 or paired.difference.high < 0
     return comparison.p_adjusted < SIGNIFICANT and one_side and not comparison.is_mixed
+
+
+def least_noticeable(comparison: Comparison) -> float | None:
+    """Return the smallest difference of these means that matters; None if the column declares no threshold."""
+    column, paired = comparison.column, comparison.paired
+    if column.threshold is None:
+        return None
+    return max(column.threshold, column.threshold_share * max(abs(paired.first), abs(paired.second)))
 
 
 def turned(comparison: Comparison) -> Comparison:

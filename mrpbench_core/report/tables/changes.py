@@ -26,8 +26,7 @@ def changes_table(comparisons: Sequence[Comparison]) -> Table:
         rows=tuple(_row(entry, named, len(comparisons)) for entry in comparisons),
         keys=1 + named,
         note="Means over pairs; difference with its 95 % interval. Identical: the same value in every pair. Better or"
-        f" worse: paired test, p adjusted by Holm < {SIGNIFICANT:g}, and the threshold of the column is reached; else"
-        " the difference is too small to matter. The last column is the number of pairs at which"
+        f" worse: paired test, p adjusted by Holm < {SIGNIFICANT:g}. The last column is the number of pairs at which"
         f" such a test shows a difference of {SHARE:.0%} of A with a probability of {POWER:.0%} (Noether 1987).",
     )
 

@@ -52,15 +52,6 @@ def test_a_share_of_the_larger_mean_is_a_threshold_too():
     assert relation(comparison(3.0, 2.0, 4.0, first=50.0)) is Relation.SLIGHT
 
 
-def test_verdicts_have_the_threshold_too():
-    assert comparison(3.0, 2.0, 4.0).verdict == "worse"
-    assert comparison(-3.0, -4.0, -2.0).verdict == "better"
-    assert comparison(3.0, 2.0, 4.0, first=50.0).verdict == "too small to matter"
-    assert comparison(3.0, 2.0, 4.0, p=0.06, first=50.0).verdict == "not shown"
-    column = Column("x.time", "s", "lower", "how long")
-    assert comparison(0.1, 0.05, 0.2, column=column).verdict == "worse"
-
-
 def test_without_a_threshold_nothing_is_noticeable():
     column = Column("x.time", "s", "lower", "how long")
     assert relation(comparison(3.0, 2.0, 4.0, column=column)) is Relation.UNRATED

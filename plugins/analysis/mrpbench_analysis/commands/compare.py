@@ -13,8 +13,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
         "Runs are paired by scenario, after repeats are averaged; configurations are paired by the options that vary"
-        " within a folder. Exit code: 0 nothing is worse in B, 1 something is, 2 nothing can be compared. Worse: by a"
-        " significant difference that reaches the threshold of the column, if that declares one."
+        " within a folder. Exit code: 0 nothing is significantly worse in B, 1 something is, 2 nothing can be compared."
     )
     parser.add_argument("first", metavar="A", help="results folder that is the reference")
     parser.add_argument("second", metavar="B", help="results folder that is judged")
@@ -35,9 +34,7 @@ def run(arguments: argparse.Namespace) -> int:
     first, second = load(arguments.first), load(arguments.second)
     comparison = compare_folders(first, second, split_names(arguments.metrics), split_names(arguments.by))
     verdicts = [entry.verdict for entry in comparison.comparisons]
-    counts = {
-        name: verdicts.count(name) for name in ("better", "worse", "different", "too small to matter", "not shown")
-    }
+    counts = {name: verdicts.count(name) for name in ("better", "worse", "different", "not shown")}
     if arguments.csv:
         write_rows(Path(arguments.csv), pairs_of(comparison.comparisons), list(PAIR_COLUMNS))
     if arguments.json:
@@ -75,6 +72,5 @@ def run(arguments: argparse.Namespace) -> int:
         f"Of {counted(len(verdicts), 'comparison')} B is better in {counts['better']}, worse in {counts['worse']},",
         end=" ",
     )
-    print(f"different in {counts['different']}, and a difference is too small to matter in", end=" ")
-    print(f"{counts['too small to matter']}; that no difference is shown does not show that there is none")
+    print(f"different in {counts['different']}; that no difference is shown does not show that there is none")
     return int(counts["worse"] > 0)
