@@ -3,7 +3,9 @@
 import numpy as np
 from hypothesis import example, given
 from hypothesis import strategies as st
-from mrpbench_live.fleet.regions import clearance, inside, offsets, placed, touches
+from mrpbench_live.fleet.regions import clearance, offsets, placed, touches
+
+from mrpbench_core.model.common.geometry import inside
 
 ELL = np.array([(0.0, 0.0), (4.0, 0.0), (4.0, 1.0), (1.0, 1.0), (1.0, 4.0), (0.0, 4.0)])
 """A polygon with a corner that goes inwards."""
@@ -23,7 +25,7 @@ def to_ell(x, y):
 @given(places)
 def test_places_are_inside_of_a_polygon_that_is_not_convex(place):
     if min(abs(value - side) for value in place for side in (0, 1, 4)) > 1e-9:
-        assert inside(np.array([place]), ELL)[0] == in_ell(*place)
+        assert inside(ELL, np.array(place)) == in_ell(*place)
 
 
 @given(places, places)
