@@ -58,14 +58,18 @@ class Control:
         self.publish("order", **body)
 
 
-def test_a_killed_broker_stops_vehicles_at_the_end_of_their_base(serve, broker):
-    start, result, _ = serve
-    start(75, "3.0", 4)
+def located(broker):
+    """Return a control that has heard the vehicle, where that is (metres), and the way along x to the far wall."""
     control = Control(broker.url)
     control.wait(lambda it: "state" in it)
     place = control.newest["state"]["mobileRobotPosition"]
-    x, y = place["x"], place["y"]
-    step = 1 if x < 6 else -1
+    return control, place["x"], place["y"], 1 if place["x"] < 6 else -1
+
+
+def test_a_killed_broker_stops_vehicles_at_the_end_of_their_base(serve, broker):
+    start, result, _ = serve
+    start(75, "3.0", 4)
+    control, x, y, step = located(broker)
     places = [(x + i * step, y) for i in range(5)]
     control.order(places, base=3, update=0, first=0)
     control.wait(lambda it: it["state"]["orderId"] == "o1")
@@ -99,11 +103,7 @@ def square(x, y, half):
 def test_vehicles_keep_to_zone_sets(serve, broker):
     start, result, _ = serve
     start(60, "3.0", 4)
-    control = Control(broker.url)
-    control.wait(lambda it: "state" in it)
-    place = control.newest["state"]["mobileRobotPosition"]
-    x, y = place["x"], place["y"]
-    step = 1 if x < 6 else -1
+    control, x, y, step = located(broker)
     zones = [
         {"zoneId": "closed", "zoneType": "BLOCKED", "vertices": square(x + step, y, 0.2)},
         {"zoneId": "slow", "zoneType": "SPEED_LIMIT", "vertices": square(x, y, 20.0), "maximumSpeed": 0.15},
