@@ -80,7 +80,7 @@ def over_time(starts, tasks):
         ([0, 8], [(3, 1, 0)], [[{0: (0, 6), 1: (8, INF)}], [{8: (0, INF)}]]),  # a tick is half a second
         ([0, 8], [(0, 1, 2), (1, 2, 0)], [[{0: (0, 0), 1: (2, 6)}, {1: (6, 6), 2: (8, INF)}], [{8: (0, INF)}]]),
         ([0, 4], [(0, 1, 20), (1, 2, 0)], [[{0: (0, 0), 1: (2, INF)}], [{4: (0, 2), 3: (4, 4), 2: (6, INF)}]]),
-        ([4], [(0, 4, 1), (9, 13, 0)], [[{4: (0, INF)}]]),  # nobody comes to the other aisle
+        ([4], [(0, 4, 1), (9, 13, 0)], [[{4: (0, INF)}]]),  # no robot comes to the other aisle
     ],
 )
 def test_tasks_over_time_are_done_by_the_robot_that_is_there_first(starts, tasks, drives_of):
