@@ -16,7 +16,6 @@ from mrpbench_core.model.common.poses import wrapped
 from mrpbench_core.model.execution.movers import Mover
 from mrpbench_core.model.runs.routing import start_poses
 from mrpbench_core.model.runs.run import FinishedRun, RunContext
-from mrpbench_core.model.worlds.world import World
 
 NUDGE, TURN = 0.05, 0.1
 """Metres and radians that a robot may always move between two samples: bodies settle, and poses are rounded."""
@@ -61,9 +60,10 @@ def _faults(run: FinishedRun, rate: float, actuation: float, apart: bool) -> Ite
     excess = EXCESS + 4 * actuation
     yield from _speeds(time, truth, pushed, context.fleet, excess)
     reach = excess * np.array([robot.max_speed for robot in context.fleet.robots]) * np.diff(time)[:, None]
-    yield from _walls(context.world, context.fleet, time, truth[..., :2], level, reach)
+    radius = np.array([inscribed_radius(robot) for robot in context.fleet.robots])
+    yield from _walls(context, time, truth[..., :2], level, reach, radius)
     yield from _levels(context, time, truth[..., :2], level, reach)
-    yield from _overlaps(run, time, truth, level, () if apart else context.movers)
+    yield from _overlaps(run, time, truth, level, radius, () if apart else context.movers)
     yield from _accelerations(time, truth, pushed, context.fleet)
 
 
@@ -141,7 +141,7 @@ def _accelerations(time: Float, truth: Float, pushed: Bool, fleet: Fleet) -> Ite
             return
 
 
-def _walls(world: World, fleet: Fleet, time: Float, place: Float, level: Int16, reach: Float) -> Iterator[str]:
+def _walls(context: RunContext, time: Float, place: Float, level: Int16, reach: Float, radius: Float) -> Iterator[str]:
     """Centres of robots that go through walls, obstacles or blocked cells, and not round them between two samples.
 
     A way of length l between places that are d apart leaves the straight line by at most sqrt(l**2 - d**2) / 2, which
@@ -149,9 +149,8 @@ def _walls(world: World, fleet: Fleet, time: Float, place: Float, level: Int16, 
     """
     moved = np.hypot(*np.moveaxis(np.diff(place, axis=0), -1, 0))
     aside = np.sqrt(np.maximum(reach**2 - moved**2, 0.0)) / 2
-    radius = np.array([inscribed_radius(robot) for robot in fleet.robots])
     straight = (moved > 0) & (aside < np.maximum(radius - DEPTH, 1e-9))
-    for index, layer in enumerate(world.levels):
+    for index, layer in enumerate(context.world.levels):
         on = (level[:-1] == index) & (level[1:] == index) & straight
         sample, robot = np.nonzero(on)
         if not len(sample):
@@ -161,7 +160,7 @@ def _walls(world: World, fleet: Fleet, time: Float, place: Float, level: Int16, 
         crossing = np.flatnonzero(near)[~has_clearance(layer, start[near], end[near], 0.0)]
         if len(crossing):
             first = int(crossing[0])
-            yield f"{fleet.names[robot[first]]} goes through a wall at {time[sample[first]]:g} s"
+            yield f"{context.fleet.names[robot[first]]} goes through a wall at {time[sample[first]]:g} s"
             return
 
 
@@ -189,10 +188,11 @@ def _levels(context: RunContext, time: Float, place: Float, level: Int16, reach:
             return
 
 
-def _overlaps(run: FinishedRun, time: Float, truth: Float, level: Int16, movers: tuple[Mover, ...]) -> Iterator[str]:
+def _overlaps(
+    run: FinishedRun, time: Float, truth: Float, level: Int16, radius: Float, movers: tuple[Mover, ...]
+) -> Iterator[str]:
     """Bodies that overlap where the simulator reports no contact."""
-    fleet = run.context.fleet
-    names, radius = fleet.names, np.array([inscribed_radius(robot) for robot in fleet.robots])
+    names = run.context.fleet.names
     sample, one, other = _overlapping(truth[..., :2], level, radius)
     reported = _reported(run, time)
     for at, first, second in zip(sample.tolist(), one.tolist(), other.tolist(), strict=True):
