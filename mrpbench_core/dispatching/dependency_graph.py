@@ -55,12 +55,13 @@ class DependencyGraph:
                 raise DispatchError(
                     f"robots rotate through {', '.join(sorted(needed))}, which admits one robot at a time"
                 )
-        self.rotation: Int = np.full(len(moves.robot), -1)
-        """i8[m]: the first move of the rotation that each move belongs to, -1 for other moves."""
+        self.rotation: Int32 = np.full(len(moves.robot), -1, np.int32)
+        """i4[m]: the first move of the rotation that each move belongs to, -1 for other moves."""
         for first, rotation in self.rotations.items():
             self.rotation[list(rotation)] = first
-        self.group_of_moves: Int = np.where(self.rotation < 0, np.arange(len(moves.robot)), self.rotation)
-        """i8[m]: the first move of the group of each move."""
+        alone = np.arange(len(moves.robot), dtype=np.int32)
+        self.group_of_moves: Int32 = np.where(self.rotation < 0, alone, self.rotation)
+        """i4[m]: the first move of the group of each move."""
         sizes = Paths.of(plan.paths).size
         self._stride = int(sizes.max(initial=0)) + 1
         self._met = counts
@@ -98,10 +99,9 @@ class DependencyGraph:
 
     def _wait_for(self, dependencies: Int) -> Int:
         """Wait for those of the coded dependencies i8[k] that are not met; return the groups that wait for them."""
-        coded: Int = np.sort(self._unmet_among(dependencies))
-        keys, groups = np.divmod(coded, max(1, len(self.moves.robot)))
-        self._open, self._keys, self._waiting = coded, keys, groups.data
-        """The dependencies in order, and the row and number of segments, and the group, of each."""
+        self._keys, groups = np.divmod(np.sort(self._unmet_among(dependencies)), max(1, len(self.moves.robot)))
+        self._waiting = groups.astype(np.int32).data
+        """The row and number of segments, and the group, of each dependency in order."""
         return groups
 
     def _dependencies(self, order: Type2Edges) -> Int:
@@ -122,7 +122,7 @@ class DependencyGraph:
         row = REACHED * len(self._problem) + moves.robot[follows]
         return self._coded(row, moves.segment[follows - 1] + 1, group[follows])
 
-    def _coded(self, row: Int, count: Int, waiting: Int) -> Int:
+    def _coded(self, row: Int, count: Int, waiting: Int | Int32) -> Int:
         coded: Int = ((row * self._stride + count) * len(self.moves.robot) + waiting).astype(np.int64)
         return coded
 
@@ -153,7 +153,8 @@ class DependencyGraph:
             if self.segment[move] < committed[self.robot[move]]:
                 raise DispatchError(f"robot {self.robot[move]} is already on its way where another is to pass first")
         self.order, self._unmet_rows = order, None
-        self._wait_for(np.append(np.delete(self._open, np.searchsorted(self._open, removed)), added))
+        waited = self._keys * len(self.moves.robot) + np.asarray(self._waiting)
+        self._wait_for(np.append(np.delete(waited, np.searchsorted(waited, removed)), added))
         for group in fewer:
             self.unmet[group] -= 1
         for group in more:
@@ -193,8 +194,8 @@ class DependencyGraph:
 
     def dependencies(self) -> Int:
         """Those that are not met, i8[k,3]: the row and the number of segments, and the group that waits."""
-        keys, groups = np.divmod(self._unmet_among(self._open), max(1, len(self.moves.robot)))
-        return np.stack([*np.divmod(keys, self._stride), groups], axis=1)
+        rows, counts = np.divmod(self._keys, self._stride)
+        return np.stack([rows, counts, self._waiting], axis=1)[counts > self._met.ravel()[rows]]
 
     def update(self, counts: Int) -> None:
         """Meet dependencies, given the counts i8[2,n] of leading segments, and release moves."""

@@ -115,9 +115,9 @@ class RouteFollower:
     def adopt(self, routes: Sequence[Route], cut: Int32 | None = None) -> None:
         """Continue with routes that begin with the released parts of the old ones, but for `cut` i4[n] segments."""
         joined = Routes.of(routes)
-        self.tables = RouteTables(joined, self._rules, self._clearances)
+        self.tables = RouteTables(joined, self._rules, self._clearances, self._beyond_bends)
         self.corners: Float = self.tables.corners
-        tables = self.tables.arrays(self._beyond_bends)
+        tables = self.tables.arrays()
         tables["any_yaw"] = self._rules.turn_ahead or not np.isnan(joined.waypoint[:, 2]).all()
         self._native.adopt(tables, cut)
         self._read_progress()

@@ -19,7 +19,7 @@ STRAIGHT = 0.3
 
 _TABLES = (
     *("first", "last", "goal", "first_corner", "last_corner", "corner", "level", "speed", "yaw", "waiting_yaw"),
-    *("is_wait", "arrival", "corners", "legs", "rounding", "clearing", "distance", "is_short", "lift"),
+    *("is_wait", "arrival", "corners", "legs", "rounding", "clearing", "distance", "is_short", "stop", "lift"),
 )
 
 
@@ -52,9 +52,11 @@ class RouteTables:
         routes: one per robot.
         rules: when a waypoint counts as reached.
         clearances: f8[n] metres at which each robot leaves room for any other.
+        beyond_bends: paths end where they turn back, not at bends.
     """
 
-    def __init__(self, routes: Sequence[Route], rules: ArrivalRules, clearances: Float) -> None:
+    def __init__(self, routes: Sequence[Route], rules: ArrivalRules, clearances: Float, beyond_bends: bool) -> None:
+        self._least_turn = BACK if beyond_bends else STRAIGHT
         joined = Routes.of(routes)
         sizes, waypoint = joined.size, joined.waypoint
         self.first = joined.first[:-1]
@@ -106,14 +108,9 @@ class RouteTables:
         if rules.stops:
             self.yaw = self.waiting_yaw
 
-    def arrays(self, beyond_bends: bool) -> dict[str, Any]:
-        """The tables by name, as `mrpbench_native.navigation` takes them.
-
-        Args:
-            beyond_bends: paths end where they turn back, not at bends.
-        """
-        tables = {name: np.ascontiguousarray(getattr(self, name)) for name in _TABLES}
-        return tables | {"stop": self.reversal if beyond_bends else self.bend}
+    def arrays(self) -> dict[str, Any]:
+        """The tables by name, as `mrpbench_native.navigation` takes them."""
+        return {name: np.ascontiguousarray(getattr(self, name)) for name in _TABLES}
 
     def _add_legs(self, clearance: Float, enters_lift: Bool) -> Float:
         """Fill the tables of the corners, given the clearance f8[C] there, and whether bool[C] a robot enters a lift;
@@ -138,10 +135,8 @@ class RouteTables:
         self.is_short: Bool = length <= clearance + SLACK
         """bool[C]: the leg is no longer than the clearance."""
         cosine = (heading * np.roll(heading, 1, axis=1)).sum(axis=0)  # of the turn at each corner, NaN at both ends
-        self.bend: Int = self._first_from_each((cosine < np.cos(STRAIGHT)) | is_last)
-        """i8[C]: the first corner of its robot, from each on, at which the direction changes, or the last."""
-        self.reversal: Int = self._first_from_each((cosine < np.cos(BACK)) | is_last)
-        """i8[C]: the first corner of its robot, from each on, at which it turns back, or the last."""
+        self.stop: Int = self._first_from_each((cosine < np.cos(self._least_turn)) | is_last)
+        """i8[C]: the first corner of its robot, from each on, at which its path ends, or the last."""
         self.lift: Int = self._first_from_each(enters_lift | is_last)
         """i8[C]: the first corner of its robot, from each on, at which it enters a lift, or the last."""
         return heading
