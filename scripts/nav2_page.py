@@ -26,8 +26,9 @@ listed, or are `enabled: false`, are not judged.
 - *refused*: the file is refused with one line, as it is for a parameter that Nav2 does not have.
 
 If a file has several controllers of a kind with different values, the option `controller_id` chooses one; if its
-namespaces have different values, the option `namespace` does. `main` has the parameters of lyrical. Of older releases
-the names `controller_plugin_ids`, `controller_plugin_types`, `plugin_names`, `obstacle_range` and `raytrace_range` are
+namespaces have different values, the option `namespace` does. `main` has the parameters of lyrical, and
+`max_cost_threshold` of the rotation shim, which is not used. Of older releases the names `controller_plugin_ids`,
+`controller_plugin_types`, `plugin_names`, `obstacle_range`, `raytrace_range` and `max_allowed_time_to_collision` are
 read, too. Filters of costmaps (`keepout_filter`, `speed_filter`) are ignored, which a note says. Speeds and
 accelerations are lowered to the limits of the robot: choose a `fleet` whose robots are as fast as those of the file.
 """

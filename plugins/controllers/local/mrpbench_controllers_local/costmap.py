@@ -107,7 +107,8 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
         layer_type = next((kind for kind, word in _LAYERS.items() if word == name), name)
         kind = layer.take("plugin", str, layer_type).replace("/", "::").rpartition("::")[2]
         if kind not in _LAYERS:
-            raise layer.error(f"{kind!r} is not an implemented layer", "plugin", hint=f"layers: {', '.join(_LAYERS)}")
+            hint = f"layers: {', '.join(_LAYERS)}; one that is `enabled: false` is not read"
+            raise layer.error(f"{kind!r} is not an implemented layer", "plugin", hint=hint)
         layer.not_used(*OF_LAYERS)
         values: dict[str, Any] = {}
         if _LAYERS[kind] == "inflation_layer":
