@@ -20,7 +20,7 @@ HEAD = """\
 `scripts/nav2_page.py` writes this page: it reads a file with each parameter. A component with the option `nav2` reads
 the parameters of its node as ROS 2 does: by the name of the node, in a namespace or under `/**`, nested or dotted, with
 merge keys. Plugins are found by the ids that the file lists (`controller_plugins`, `plugins`, …). Blocks that are not
-listed, or are `enabled: false`, are not judged.
+listed, or are `enabled: false`, are not judged, nor is what a file says of an option that the configuration sets.
 - *read*: it has the effect that it has in Nav2.
 - *not used*: Nav2 has it, and it has no effect here. The notes of a study list it once as "not used here".
 - *refused*: the file is refused with one line, as it is for a parameter that Nav2 does not have.

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from mrpbench_controllers_dwb import Dwb, PathDist
 from mrpbench_controllers_graceful import Graceful
+from mrpbench_controllers_local.costmap import LocalCostmap
 from mrpbench_controllers_mppi import Mppi
 from mrpbench_controllers_rotation_shim import RotationShim
 from mrpbench_controllers_rpp import Rpp
@@ -115,6 +116,24 @@ def test_options_choose_among_controllers_and_namespaces(write):
     assert values(Dwb(nav2=spaces, namespace="s"))["max_vel_x"] == 0.05
     with pytest.raises(InputError, match="different values of controller_server in the namespaces r, s"):
         Dwb(nav2=spaces)
+
+
+def test_what_a_file_says_of_an_option_that_is_set_is_not_judged(write):
+    file = write(
+        follow("vx_samples: many, max_vel_x: 0.1")
+        + "\nlocal_costmap: {local_costmap: {ros__parameters: {width: 2000, plugins: [stvl, inflation_layer], "
+        "stvl: {plugin: 'spatio_temporal_voxel_layer/SpatioTemporalVoxelLayer', voxel_decay: 5.0}, "
+        "inflation_layer: {plugin: 'nav2_costmap_2d::InflationLayer', inflation_radius: 0.4}}}}"
+        "\namcl: {ros__parameters: {robot_model_type: 'nav2_amcl::OmniMotionModel'}}"
+    )
+    costmap = LocalCostmap(width=4.0, plugins=("obstacle_layer", "inflation_layer"))
+    found = values(Dwb(nav2=file, vx_samples=9, local_costmap=costmap))
+    expected = {"vx_samples": 9, "max_vel_x": 0.1, "width": 4.0, "inflation_radius": 0.4, "obstacle_layer": True}
+    assert {name: found[name] for name in expected} == expected
+    assert Amcl(nav2=file, robot_model_type="differential").notes() == ()
+    for refused in (Dwb, Amcl):
+        with pytest.raises(InputError):
+            refused(nav2=file).notes()
 
 
 def test_options_that_choose_have_no_effect_without_a_file():
