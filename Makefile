@@ -175,7 +175,9 @@ pogema: install ## compare 100,000 random steps with POGEMA, in its own environm
 	$(BIN)/python benchmarks/policies.py
 	$(POGEMA)/python -m pip install --quiet --disable-pip-version-check --no-deps pogema-toolbox==0.1.1 pyyaml
 	$(POGEMA)/python plugins/policies/tests/pogema/write_problems.py build/pogema/benchmark
-	$(BIN)/python benchmarks/pogema_tables.py --benchmark build/pogema/benchmark --set 01-random $(ARGS)
+	for set in "01-random --robots 8 32 64" "02-mazes --robots 8 32 64" "03-warehouse --robots 32 96" "05-puzzles --robots 2 3 4"; do \
+	    $(BIN)/python benchmarks/pogema_tables.py --benchmark build/pogema/benchmark --set $$set $(ARGS) || exit 1; \
+	done
 	$(BIN)/python benchmarks/pogema_lifelong.py --maps 16
 
 slurm: install ## run the array job of the page on clusters on a SLURM cluster of this machine (Debian, root; five minutes)
