@@ -121,7 +121,7 @@ class Robot:
             axis, roll = ("0 0 1", "-1.570796 0 0") if turned else ("0 1 0", "0 0 0")
             parts.append(self._joint(name, "continuous", "base_link", f"{name}_wheel", place, axis, roll))
         for number, x in enumerate(self.casters()):
-            size = min(self.lift, self.radius) / 2
+            size = min(self.lift, self.radius, 0.15 * self.length) / 2
             parts.append(
                 self._link(f"caster_{number}", f'<collision><geometry><sphere radius="{size}"/></geometry></collision>')
             )
