@@ -111,7 +111,7 @@ def traffic() -> Iterator[Figure]:
         if not cells or not cells[0].isdigit():
             print(line, end="", flush=True)
             continue
-        robots, planner, _, plan, sent, cpu, other, tasks, standstill, _, contacts, _, lag, behind, _ = cells
+        robots, planner, _, plan, _, sent, cpu, other, tasks, standstill, _, contacts, _, lag, behind, _ = cells
         found = (
             f"lag p99 {lag} and {behind} ms, plan p95 {plan} ms, {sent} messages/s, CPU {cpu} and {other}, "
             f"{tasks} tasks/h, {contacts} contacts, standstill {standstill} s"
