@@ -122,7 +122,7 @@ def test_a_plan_does_not_wait_for_all_the_destinations_that_come(post):
     assert reasons == [False] * 5 + [True] * 3
 
 
-def test_the_way_of_a_robot_goes_on_behind_it_and_only_who_has_another_plan_gets_one(post):
+def test_only_robots_with_another_plan_are_sent_one(post):
     traffic = post.traffic
     roadmap = attrs.evolve(ROADMAP, position=[(float(i), 0.0) for i in range(20)], level=[0] * 20)
     edges = [(i, i + 1) for i in range(19)]
@@ -152,8 +152,9 @@ def test_the_way_of_a_robot_goes_on_behind_it_and_only_who_has_another_plan_gets
     assert send(*plan(5, 5, 3), reached) == ["c/plan"]
     assert traffic.reached(reached.astype(np.int32)).tolist() == [3, 0, 0]
     assert traffic.places(0)[:, 0].tolist() == [0, 1, 2, 3, 4, 5]
+    assert traffic.places(0)[:, 0].tolist() == [3, 4, 5]  # from where it was when that was asked before
     assert send(*plan(4, 5, 3), reached) == ["a/plan"]
-    assert traffic.places(0)[:, 0].tolist() == [0, 1, 2, 3, 4]
+    assert traffic.places(0)[:, 0].tolist() == [3, 4]
     assert traffic.places(1)[:, 0].tolist() == [6, 7, 8, 9, 10, 11]
     traffic.unplanned[1] = "b asks for another plan"
     assert send(*plan(4, 5, 3), reached) == ["b/plan"]

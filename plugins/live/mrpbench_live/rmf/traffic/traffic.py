@@ -21,8 +21,6 @@ from mrpbench_live.rmf.wire import LEAST_S, Wire
 PACKAGE = "rmf_prototype_msgs"
 NOWHERE = bytes(16)
 """Session of the plans of robots that have no destination, and have to make way."""
-TRAIL = 8
-"""Vertices behind a robot that count to its way: what it reports of its place may be older than of its progress."""
 LONGEST_S = 0.5
 """Simulated seconds at most from a new destination until there is a plan for it, while others come."""
 
@@ -60,10 +58,8 @@ class Traffic:
         """Plans that were made for all robots together."""
         self._released: dict[int, int] = {}
         """The waypoint that each robot was released to."""
-        self._passed: dict[int, int] = {}
-        """The last waypoint of its plan that each robot has reached."""
-        self._trail: dict[int, list[int]] = {}
-        """The vertices that each robot has reached before that, the last ones."""
+        self._shown: dict[int, int] = {}
+        """The waypoint that each robot had reached when `places` was called before."""
 
     def hear(self, now: float, problem: Problem) -> list[Event]:
         """Take in destinations and errors; return what the recording should say.
@@ -174,9 +170,10 @@ class Traffic:
             for robot, way in enumerate(composed.waypoints)
             if robot in kept or robot in self.wishes or len(way.segments) > 1
         }
-        for waypoints in (self._released, self._passed):
-            for robot in waypoints.keys() - set(kept):
-                del waypoints[robot]
+        self._released, self._shown = (
+            {robot: waypoint for robot, waypoint in waypoints.items() if robot in kept}
+            for waypoints in (self._released, self._shown)
+        )
         self.unplanned.clear()
         now = stamp(self._messages)
         self._unsent = {robot: made for robot, made in self._unsent.items() if robot in kept} | {
@@ -198,10 +195,12 @@ class Traffic:
         self.wire.serve(due)
 
     def places(self, robot: int) -> Float:
-        """Return the places f8[k,2] (metres) of the waypoints of a robot, with some that it has reached before."""
-        posted = self.posted.get(robot)
-        ahead = [] if posted is None else posted.waypoints.vertex[self._passed.get(robot, 0) :].tolist()
-        found: Float = self._position[np.array([*self._trail.get(robot, ()), *ahead], np.int64)]
+        """Return the places f8[k,2] (metres) of the waypoints of a robot, see `OutsideRobots.route`."""
+        posted, progress = self.posted.get(robot), self.participants.robots[robot].progress
+        vertices = np.zeros(0, np.int64) if posted is None else posted.waypoints.vertex[self._shown.get(robot, 0) :]
+        if posted is not None and progress is not None and progress[0] == posted.key:
+            self._shown[robot] = progress[1]
+        found: Float = self._position[vertices]
         return found
 
     def release(self, released: Int32) -> None:
@@ -221,12 +220,8 @@ class Traffic:
         for robot, posted in self.posted.items():
             progress = self.participants.robots[robot].progress
             if progress is not None and progress[0] == posted.key:
-                segments, vertices = posted.waypoints.segments, posted.waypoints.vertex
-                since, at = self._passed.get(robot, 0), min(progress[1], len(segments) - 1)
-                found[robot] = max(found[robot], int(segments[at]))
-                if at > since:
-                    self._trail[robot] = [*self._trail.get(robot, ()), *vertices[since:at].tolist()][-TRAIL:]
-                    self._passed[robot] = at
+                segments = posted.waypoints.segments
+                found[robot] = max(found[robot], int(segments[min(progress[1], len(segments) - 1)]))
         return found
 
     def _session(self, robot: int) -> bytes:
