@@ -133,7 +133,7 @@ class _Member:
         self._intervals = LEAST_INTERVAL, recipe.state_interval, recipe.visualization_interval
         self._order_fault = validator(recipe.version, "order")
         self._actions_fault = validator(recipe.version, "instantActions")
-        self._zones_fault = validator(recipe.version, "zoneSet") if self._names.zones else None
+        self._zones_fault = validator(recipe.version, "zoneSet") if self._names.zones else _no_zones
 
         def note(kind: str, detail: str) -> None:
             fleet.note(robot, kind, detail)
@@ -142,7 +142,7 @@ class _Member:
         track = Track(site, paths, robot)
         self._vehicle = Vehicle(track, self._names, recipe.battery, recipe.action_time, note)
         self._vehicle.last_node = track.name(track.end)
-        self._instant = InstantActions(self._vehicle, track, self._names, note)
+        self._instant = InstantActions(self._vehicle, track, self._names, note, self._zones_fault)
         self._phase = recipe.state_interval * (robot % 97) / 97  # not all at once, also after what all meet at one time
         self._state_at = self._phase
         self._visualization_at = 0.0 if recipe.visualization_interval else float("inf")
@@ -166,11 +166,12 @@ class _Member:
     @property
     def restless(self) -> bool:
         """True if something may happen although the vehicle is where it was; see `Vehicle.restless`."""
-        return self._vehicle.restless
+        return self._vehicle.restless or self._instant.restless
 
     def advance(self, here: Here, now: float) -> None:
         """Go on, and send what is due at `now`."""
         vehicle = self._vehicle
+        self._instant.advance()
         vehicle.advance(here)
         if vehicle.wants_factsheet:
             vehicle.wants_factsheet = False
@@ -227,5 +228,10 @@ class _Member:
             self._vehicle.take_order(message, fault or self._order_fault(message))
         elif kind == "instantActions":
             self._instant.take(message, fault or self._actions_fault(message))
-        elif kind == "zoneSet" and self._zones_fault is not None:
+        elif kind == "zoneSet":
             self._vehicle.take_zones(message, fault or self._zones_fault(message))
+
+
+def _no_zones(_message: Any) -> str | None:
+    """What is wrong with any zone set in a version without zones."""
+    return "there are no zones in 2.1"

@@ -332,17 +332,27 @@ class Vehicle:
         on_edge = self.edges and self.edges[0].released and self._cancel is None
         return self.edges[0] if on_edge else None
 
-    def take_zones(self, message: Any, fault: str | None) -> None:
-        """Keep a zone set, or refuse it; `fault`: what is wrong with the message by its schema."""
+    def take_zones(self, message: Any, fault: str | None) -> str | None:
+        """Keep a zone set, or refuse it and return why; `fault`: what is wrong with the message by its schema."""
         try:
             if fault is not None:
                 raise RefusedError("VALIDATION_FAILURE", fault, {"topic": "zoneSet"})
             self.zones.add(message)
         except RefusedError as refusal:
             self.refuse(refusal, UNTIL_NEXT_ZONE_SET)
-            return
+            return str(refusal)
         self.zones_changed()
         self._note("zone_set", str(message["zoneSet"]["zoneSetId"]))
+        return None
+
+    def known_zone_set(self, name: str) -> str | None:
+        """Report that there is a zone set of a name already, and return that; None: there is none."""
+        try:
+            self.zones.check_new(name)
+        except RefusedError as refusal:
+            self.refuse(refusal, UNTIL_NEXT_ZONE_SET)
+            return str(refusal)
+        return None
 
     def zones_changed(self) -> None:
         """Note that zone sets were added, enabled or deleted, which ends errors about them."""
