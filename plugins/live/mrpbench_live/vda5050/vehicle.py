@@ -66,7 +66,7 @@ class Vehicle:
         self.pause: Action | None = None
         """The instant action that ends when the paused vehicle stands."""
         self._cancel: Action | None = None
-        self._cancelled = self._has_horizon = False
+        self._cancelled = self._has_horizon = self._restless = False
         self._bounds = Bounds(track, self._out_of_bounds, self._correct)
         self.zones = track.zones
         self.queue = ActionQueue()
@@ -111,6 +111,7 @@ class Vehicle:
         self.errors = [error for error in self.errors if error.until != UNTIL_NEXT_ORDER]
         self.changed = True
         self._look_ahead()
+        self._drive()  # from this control period on
         self._note("order_accepted", f"{message['orderId']} {message['orderUpdateId']}")
 
     def _is_repetition(self, message: Mapping[str, Any]) -> bool:
@@ -209,10 +210,7 @@ class Vehicle:
     @property
     def restless(self) -> bool:
         """True if something may happen to the vehicle although it neither passes a node nor begins or ends to drive."""
-        waits = self.pause is not None and not self.pause.ended
-        edge = self._edge
-        busy = bool(self.queue) or self._cancel is not None or self._has_horizon
-        return self.changed or waits or busy or bool(self.zones) or (edge is not None and edge.corridor is not None)
+        return self.changed or self._restless
 
     def advance(self, here: Here) -> None:
         """Go on to another time: traverse nodes, perform actions, and decide how far the vehicle may drive."""
@@ -228,6 +226,10 @@ class Vehicle:
         self._perform(here)
         self._finish(here)
         self._drive()
+        waits = self.pause is not None and not self.pause.ended
+        busy = bool(self.queue) or self._cancel is not None or self._has_horizon
+        edge = self._edge
+        self._restless = waits or busy or bool(self.zones) or (edge is not None and edge.corridor is not None)
 
     def _may_traverse(self, node: Node) -> bool:
         """A vehicle that waits at a node counts it only once; one that is cancelled stops where its path ends."""
