@@ -6,11 +6,12 @@ from typing import Any
 
 from mrpbench_live.vda5050.actions import Action
 from mrpbench_live.vda5050.download import Download
+from mrpbench_live.vda5050.errors import UNTIL_NEXT_INSTANT_ACTION, UNTIL_NEXT_ORDER
 from mrpbench_live.vda5050.names import Names
 from mrpbench_live.vda5050.orders import RefusedError
 from mrpbench_live.vda5050.scopes import scopes_of
 from mrpbench_live.vda5050.track import Track, distance
-from mrpbench_live.vda5050.vehicle import UNTIL_NEXT_INSTANT_ACTION, UNTIL_NEXT_ORDER, Vehicle
+from mrpbench_live.vda5050.vehicle import Vehicle
 
 EMPTY_HEADER = {
     "headerId": 0,
@@ -78,7 +79,7 @@ class InstantActions:
         vehicle = self._vehicle
         if fault is not None:
             refusal = RefusedError("INVALID_INSTANT_ACTION", fault, {"topic": "instantActions"})
-            vehicle.refuse(refusal, UNTIL_NEXT_INSTANT_ACTION)
+            vehicle.errors.refuse(refusal, UNTIL_NEXT_INSTANT_ACTION)
             return
         for action in map(Action.of, message["actions"]):
             if action.id in vehicle.instant or action.id in vehicle.actions:  # the fleet control repeats itself
@@ -89,9 +90,9 @@ class InstantActions:
                 action.status = "FAILED"
                 refers = {"topic": "instantActions", "actionId": action.id, "actionType": action.type}
                 what = f"the instant action {action.type!r} does not exist"
-                vehicle.refuse(RefusedError("INVALID_INSTANT_ACTION", what, refers), UNTIL_NEXT_INSTANT_ACTION)
+                vehicle.errors.refuse(RefusedError("INVALID_INSTANT_ACTION", what, refers), UNTIL_NEXT_INSTANT_ACTION)
                 continue
-            vehicle.errors = [error for error in vehicle.errors if error.until != UNTIL_NEXT_INSTANT_ACTION]
+            vehicle.errors.end(UNTIL_NEXT_INSTANT_ACTION)
             action.status, action.begun = "RUNNING", True
             self._note("instant_action", f"{action.type} {action.id}")
             self._perform[kind](action)
@@ -104,7 +105,7 @@ class InstantActions:
             return
         action.status = "FAILED"
         what = "there is no active order" if active is None else f"the order {wanted!r} is not active"
-        vehicle.refuse(RefusedError("NO_ORDER_TO_CANCEL", what, {"actionId": action.id}), UNTIL_NEXT_ORDER)
+        vehicle.errors.refuse(RefusedError("NO_ORDER_TO_CANCEL", what, {"actionId": action.id}), UNTIL_NEXT_ORDER)
 
     def _start_pause(self, action: Action) -> None:
         self._vehicle.pause, self._vehicle.paused = action, True
