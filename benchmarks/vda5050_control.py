@@ -1,6 +1,6 @@
 """Compare the tasks that a fleet does over VDA 5050 with those that it does in one process.
 
-    python benchmarks/vda5050_control.py --robots 6 12 --pace 4 --seconds 600
+    python benchmarks/vda5050_control.py --robots 6 12 --seeds 0 1 2 --pace 4 --seconds 600
 
 The study is the same: robots of 0.6 by 0.4 m in an open hall of 12 by 10 cells of 1 m get transports from one place to
 another, more than they can serve; `rolling_horizon` with `pibt` plans, and `adg` releases. Once the robots are
@@ -8,8 +8,10 @@ simulated in the process that plans, once they are vehicles of VDA 5050 (`mrpben
 drives over a broker on this machine, both at `--pace`. Six robots have room, and twelve meet all the time.
 
 Prints tasks an hour of both, the share that is left over the wire, and the wall seconds that the two ends were behind
-the clock at most. Both ends and the broker need processors of their own: on a busy machine the share is that of what it
-left them. Options after `--` go to `serve`, such as `-- dispatcher.interval=0.1`.
+the clock at most; and the share of all seeds. Which robot comes first somewhere changes all that follows, so single
+seeds differ by a tenth and more either way. `--once` executes one plan instead, which is the same on both sides, and
+compares how long that takes. Both ends and the broker need processors of their own: on a busy machine the share is
+that of what it left them. Options after `--` go to `serve`, such as `-- dispatcher.interval=0.1`.
 """
 
 import argparse
@@ -19,7 +21,6 @@ import re
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 from typing import Any
 
@@ -40,6 +41,7 @@ STUDY: dict[str, Any] = {
     "control_rate": "10 Hz",
     "metrics": ["tasks", "execution"],
 }
+ONCE: dict[str, Any] = {"tasks": None, "planner": "lacam", "metrics": ["execution"]}
 CART = """
 name: cart
 footprint: [[0.3, 0.2], [-0.3, 0.2], [-0.3, -0.2], [0.3, -0.2]]
@@ -67,37 +69,44 @@ def behind(said: str) -> float:
     return max(map(float, re.findall(r"([\d.]+) s behind (?:the clock|it)", said)), default=0.0)
 
 
-def measure(robots: int, options: argparse.Namespace, folder: Path) -> str:
-    """Do the study in process and over the wire; return a row."""
+def measure(robots: int, seed: int, options: argparse.Namespace, folder: Path) -> tuple[float, float]:
+    """Do the study in process and over the wire, and print a row; return how much is done in an hour by both."""
     (folder / "hall.map").write_text("type octile\nheight 10\nwidth 12\nmap\n" + "............\n" * 10)
     (folder / "cart.yaml").write_text(CART)
-    (folder / "study.yaml").write_text(json.dumps(STUDY | {"scenario": {"plugin": "random", "robots": robots}}))
+    study = STUDY | {"scenario": {"plugin": "random", "robots": robots}} | (ONCE if options.once else {})
+    (folder / "study.yaml").write_text(json.dumps({key: value for key, value in study.items() if value is not None}))
 
     def start(*words: str) -> "subprocess.Popen[str]":
         return subprocess.Popen(
             [*COMMAND, *words], cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
         )
 
-    seed = f"seed={options.seed}"
+    chosen = f"seed={seed}"
     limit = f"limits.execution={options.seconds} s"
-    start("run", "study.yaml", seed, limit, "--out", "process").wait()
+    start("run", "study.yaml", chosen, limit, "--out", "process").wait()
     alone = record_of(folder / "process")
     url, broker = start_broker(folder)
     wire = ("--vda5050", url, "--pace", str(options.pace))
     grace = f"{options.seconds + options.pace * GRACE_S} s"
     often = "dispatcher.interface.visualization_interval=0.1"
-    serve = start("serve", "study.yaml", seed, often, *options.serve, *wire, "--duration", grace, "--out", "served")
-    control = start("control", "study.yaml", seed, *wire, "--duration", f"{options.seconds} s", "--out", "control")
+    serve = start("serve", "study.yaml", chosen, often, *options.serve, *wire, "--duration", grace, "--out", "served")
+    control = start("control", "study.yaml", chosen, *wire, "--duration", f"{options.seconds} s", "--out", "control")
     control_said = control.communicate()[1]
+    if options.once:  # which ends when all have arrived
+        serve.terminate()
     serve_said = serve.communicate()[1]
     broker.kill()
-    over, served = record_of(folder / "control"), record_of(folder / "served")
-    tasks = alone["tasks.per_hour"], over["tasks.per_hour"]
-    return (
-        f"{robots:6} {tasks[0]:12.0f} {tasks[1]:8.0f} {tasks[1] / tasks[0]:6.3f} "
-        f"{served['execution.robot_contacts']:8} {behind(control_said):8.2f} {behind(serve_said):8.2f} "
-        f"{os.getloadavg()[0]:5.1f}"
+    over = record_of(folder / "control")
+    contacts = over["execution.robot_contacts"]
+    if not options.once:
+        contacts = max(contacts, record_of(folder / "served")["execution.robot_contacts"])
+    done = [3600 / it["execution.duration_s"] if options.once else it["tasks.per_hour"] for it in (alone, over)]
+    print(
+        f"{robots:6} {seed:5} {done[0]:12.0f} {done[1]:8.0f} {done[1] / done[0]:6.3f} {contacts:8} "
+        f"{behind(control_said):8.2f} {behind(serve_said):8.2f} {os.getloadavg()[0]:5.1f}",
+        flush=True,
     )
+    return done[0], done[1]
 
 
 def main() -> None:
@@ -106,14 +115,18 @@ def main() -> None:
     parser.add_argument("--robots", type=int, nargs="+", default=[6, 12])
     parser.add_argument("--pace", type=float, default=4.0)
     parser.add_argument("--seconds", type=float, default=600.0, help="simulated")
-    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1, 2])
+    parser.add_argument("--once", action="store_true", help="execute one plan; figures are plans an hour")
     parser.add_argument("serve", nargs="*", help="overrides for the vehicles")
     options = parser.parse_args()
-    print("robots in process/h   wire/h  share contacts behind s: control, vehicles  load", flush=True)
+    print("robots  seed in process/h   wire/h  share contacts behind s: control, vehicles  load", flush=True)
     for robots in options.robots:
-        with tempfile.TemporaryDirectory() as folder:
-            print(measure(robots, options, Path(folder)), flush=True)
-        time.sleep(0.1)
+        done = []
+        for seed in options.seeds:
+            with tempfile.TemporaryDirectory() as folder:
+                done.append(measure(robots, seed, options, Path(folder)))
+        alone, over = (sum(it) for it in zip(*done, strict=True))
+        print(f"{robots:6} {'all':>5} {alone:12.0f} {over:8.0f} {over / alone:6.3f}", flush=True)
 
 
 if __name__ == "__main__":
