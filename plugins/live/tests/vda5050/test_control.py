@@ -69,7 +69,7 @@ def test_without_releases_in_order_they_meet(swap):
 @pytest.mark.skipif(not KILLS, reason="`make live` sets MRPBENCH_LIVE_KILLS")
 def test_a_killed_broker_costs_time_only(swap, broker):
     end = swap("adg", 35 + 2 * KILLS, pace=1)
-    kill(broker)
+    kill(broker, end.control)
     record, served, said = end()
     assert (record["status"], served["status"]) == ("succeeded", "succeeded"), (record["error"], said)
     assert served["metrics"]["execution.robot_contacts"] == 0
@@ -96,20 +96,21 @@ def test_vehicles_that_drive_around_corners_unheard_hit_no_wall(tmp_path, swap, 
     (tmp_path / "study.yaml").write_text(json.dumps(SHELVING))
     pace, seconds = 5, 20 + 1.5 * KILLS
     end = swap("adg", pace * (seconds + 15), pace, more=("--duration", f"{pace * seconds} s"))
-    kill(broker)
+    kill(broker, end.control)
     record, served, said = end()
     assert (record["status"], served["status"]) == ("succeeded", "succeeded"), (record["error"], said)
     assert served["metrics"]["execution.robot_contacts"] == 0
     assert record["metrics"]["tasks.per_hour"] > 0
 
 
-def kill(broker):
+def kill(broker, control):
     """Kill the broker, and start it again, as often as asked, from the first order on."""
     heard = []
     wire = Wire(Broker.of(broker.url))
     topics = ("vda5050/v3/mrpbench/+/order",)
     wire.add(Client(wire, "listener", None, topics, lambda: None, lambda topic, _: heard.append(topic)))
     while not heard:
+        assert control.poll() is None, control.communicate()
         wire.serve(time.monotonic() + 0.1)
     wire.close()
     for _ in range(KILLS):
