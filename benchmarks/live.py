@@ -4,10 +4,10 @@
     python benchmarks/live.py --only broker swap
 
 `make live` runs it in an environment of its own with what other parties need: `mosquitto`, `vda5050-sdk`, and the npm
-package `vda-5050-lib` on NODE_PATH. It takes about an hour. Fleets of VDA 5050 are tests of `plugins/live/tests` with
-larger numbers, `vda5050_vehicles.py` and `vda5050_control.py`; those of Open-RMF are `rmf_scenarios.py` and
-`rmf_traffic.py`. The figures of times are those of this
-machine, which should have nothing else to do. The return code is 1 if a figure is not what was asked.
+package `vda-5050-lib` on NODE_PATH. It takes about an hour and a half. Fleets of VDA 5050 are tests of
+`plugins/live/tests` with larger numbers, `vda5050_vehicles.py` and `vda5050_control.py`; those of Open-RMF are
+`rmf_scenarios.py` and `rmf_traffic.py`. The figures of times are those of this machine, which should have nothing else
+to do. The return code is 1 if a figure is not what was asked.
 """
 
 import argparse

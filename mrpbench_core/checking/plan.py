@@ -36,7 +36,7 @@ def check_plan(problem: Problem, plan: Plan, conflict_limit: int | None = None) 
     Args:
         problem: what was planned.
         plan: what to check.
-        conflict_limit: the number of conflicts to report, the earliest first; None = all, 0 = they are not searched for.
+        conflict_limit: the number of conflicts to report, the earliest first; None = all, 0 = none are searched for.
     """
     known = (report for asked, made, report in _latest if asked is problem and made is plan)
     report = next(known, None) or _report(problem, plan, conflict_limit != 0)
