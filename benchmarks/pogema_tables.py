@@ -6,8 +6,7 @@
 FOLDER is `build/pogema/benchmark`, where `make pogema` writes the problems, or a checkout of
 https://github.com/CognitiveAISystems/pogema-benchmark; without it, the excerpt of it that the tests have: 3 seeds of
 the warehouse with up to 64 robots. Robots are points on the grid (`simulator: none`), and the metrics are those of
-POGEMA; in a run without a plan, each robot counts all steps. Planners that improve their plans do so in 300 iterations,
-so that results do not depend on the machine.
+POGEMA. Planners that improve their plans do so in 300 iterations, so that results do not depend on the machine.
 
 Published means were counted in the published results of all problems of a set; results of single runs, with which a
 planner is compared in pairs, are read from FOLDER/raw_data_MAPF. `ep_length` has another meaning there and is not read.
@@ -92,9 +91,7 @@ def measured(file: Path, problem: Problem, steps: int, planner: str) -> Metrics:
         record = execute(load_study(study).runs[0].config, "run", paths)
     if record.metrics.get("pogema.CSR") is None:
         raise InputError(f"{problem}: {record.status}", hint=str(record.error) if record.error else None)
-    unsolved = {"CSR": 0.0, "SoC": robots * steps, "makespan": steps}
-    values = {measure: record.metrics[f"pogema.{measure}"] for measure in MEASURES}
-    return {measure: unsolved[measure] if value is None else float(value) for measure, value in values.items()}
+    return {measure: float(record.metrics[f"pogema.{measure}"]) for measure in MEASURES}
 
 
 def compare(benchmark: Path, name: str, planner: str, robots: int, count: int | None = None) -> dict[Problem, Metrics]:
