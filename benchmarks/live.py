@@ -106,7 +106,7 @@ def vehicles() -> Iterator[Figure]:
     """A thousand vehicles of VDA 5050 that all drive, and a hundred with lidar and `dwb`."""
     for name, words in (("1,000 vehicles", ()), ("100 vehicles with lidar and dwb", ("--vehicles", "100", "--lidar"))):
         said = script("vda5050_vehicles.py", *words).communicate()[0].strip()
-        found = [re.search(rf"{words} ([\d.]+)", said) for words in ("age p50 [^,]* p99", "longest pause", "lag p99")]
+        found = [re.search(rf"{words} ([\d.]+)", said) for words in ("age p50 [^,]*, p99", "longest pause", "lag p99")]
         gaps, contacts = re.search(r"(\d+) gaps", said), re.search(r"(\d+) contacts", said)
         if gaps is None or contacts is None or None in found:
             yield Figure(name, "a line", said or "no output", False)

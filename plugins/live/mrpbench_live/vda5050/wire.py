@@ -188,9 +188,10 @@ class Wire:
             ready = self._selector.select(max(0.0, min(until - now, MISC_S)))
             if not ready and time.monotonic() >= until:
                 return
-            self._turn += 1  # others come first the next time
+            begin = self._turn
             for index in range(len(ready)):
-                key, mask = ready[(index + self._turn) % len(ready)]
+                key, mask = ready[(begin + index) % len(ready)]
+                self._turn += 1  # others come first the next time
                 client = key.data
                 if mask & selectors.EVENT_READ:
                     client.mqtt.loop_read()
