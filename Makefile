@@ -69,7 +69,7 @@ python: install ## run the Python tests, JOBS at a time
 explore: install ## run the property tests with examples that `make test` does not draw
 	$(BIN)/pytest --numprocesses $(JOBS) --dist worksteal --hypothesis-profile explore -m hypothesis
 
-soak: install ## compare with brute force, execute drawn plans a million times, do a million events of tasks, run configurations drawn from the schema, disturb studies, look for robots that stand, let people meet robots (five hours)
+soak: install ## compare with brute force, execute drawn plans a million times, do a million events of tasks, run configurations drawn from the schema, disturb studies, look for robots that stand, let people meet robots, drive drawn robots as rigid bodies (six hours)
 	$(BIN)/python plugins/planners/mapf/tests/soak_planners.py 20000 1
 	$(BIN)/python plugins/planners/mapf/tests/soak_assigning.py 10000 1
 	$(BIN)/python tests/engine/execution/soak_executions.py 1000000 1
@@ -81,6 +81,8 @@ soak: install ## compare with brute force, execute drawn plans a million times, 
 	$(BIN)/python plugins/crowds/walking/tests/soak_people.py 60
 	$(BIN)/python plugins/crowds/walking/tests/soak_people.py 60 --crowd orca
 	$(BIN)/python plugins/policies/tests/env/soak_bodies.py 128 60 1
+	$(BIN)/python plugins/simulators/bodies/tests/soak_drives.py 200 0
+	$(BIN)/python plugins/simulators/bodies/tests/soak_drives.py 200 0 --simulator pybullet
 
 pages: install ## do what every page of the documentation says, in empty folders (ten minutes)
 	MRPBENCH_ALL_PAGES=1 $(BIN)/pytest --numprocesses $(JOBS) --dist worksteal tests/docs
@@ -150,7 +152,7 @@ ros: ## test live ROS 2, with rclpy from PyPI in its own environment (Python 3.1
 	$(ROS)/python -m pytest -p no:cacheprovider plugins/bridges/ros2
 
 LIVE := build/live/bin
-live: ## measure live fleets, a line for each figure with what was asked: orders of vda5050-sdk and vda-5050-lib, 100,000 broken messages, a broker killed 20 times, the load test, the patrol swap, the table of Open-RMF (an hour); ARGS="--only swap" for less; needs mosquitto, and npm
+live: ## measure live fleets, a line for each figure with what was asked: orders of vda5050-sdk and vda-5050-lib, 100,000 broken messages, a broker killed 20 times, 1,000 vehicles, throughput over MQTT, the load test, the patrol swap, the table of Open-RMF (an hour and a half); ARGS="--only swap" for less; needs mosquitto, and npm
 	test -x $(LIVE)/python || $(PYTHON) -m venv build/live
 	$(LIVE)/python -m pip install --quiet hypothesis pytest pytest-timeout vda5050-sdk aiomqtt -e . ./native -e plugins -e 'plugins/live[rmf,vda5050]'
 	if command -v npm >/dev/null; then npm install --silent --no-save --prefix build/live vda-5050-lib@1.4.0; fi
@@ -175,7 +177,9 @@ pogema: install ## compare 100,000 random steps with POGEMA, in its own environm
 	$(BIN)/python benchmarks/policies.py
 	$(POGEMA)/python -m pip install --quiet --disable-pip-version-check --no-deps pogema-toolbox==0.1.1 pyyaml
 	$(POGEMA)/python plugins/policies/tests/pogema/write_problems.py build/pogema/benchmark
-	$(BIN)/python benchmarks/pogema_tables.py --benchmark build/pogema/benchmark --set 01-random $(ARGS)
+	for set in "01-random --robots 8 32 64" "02-mazes --robots 8 32 64" "03-warehouse --robots 32 96" "05-puzzles --robots 2 3 4"; do \
+	    $(BIN)/python benchmarks/pogema_tables.py --benchmark build/pogema/benchmark --set $$set $(ARGS) || exit 1; \
+	done
 	$(BIN)/python benchmarks/pogema_lifelong.py --maps 16
 
 slurm: install ## run the array job of the page on clusters on a SLURM cluster of this machine (Debian, root; five minutes)

@@ -1,9 +1,11 @@
-"""Compares throughputs in POGEMA with those published of RHCR: python benchmarks/pogema_lifelong.py [--maps 32].
+"""Compares throughputs in POGEMA with those published of RHCR.
+
+    python benchmarks/pogema_lifelong.py [--set 02-mazes] [--robots 32] [--maps 16] [--planner pbs]
 
 POGEMA runs in its own environment (`make pogema`), draws the goals and moves the robots; every five steps a planner
 plans the next ten for the goals that come, as RHCR does (Li et al., AAAI 2021) with PBS, the published one. The
-problems are those of the set `01-random`: its maps, seed 0, 256 steps. Published means, of 128 maps each, were counted
-in the results of https://github.com/CognitiveAISystems/pogema-benchmark. Robots whose planner gives up stay.
+problems are the maps of a set with seed 0. Published means, of 128 maps each, were counted in the results of
+https://github.com/CognitiveAISystems/pogema-benchmark. Robots whose planner gives up stay.
 """
 
 import argparse
@@ -27,12 +29,17 @@ from mrpbench_core.model.planning.goals import first_problem
 from mrpbench_core.model.planning.problem import features_of
 
 ROOT = Path(__file__).parents[1]
-PROBLEMS = ROOT / "build" / "pogema" / "benchmark" / "algorithms" / "experiments" / "01-random"
+PROBLEMS = ROOT / "build" / "pogema" / "benchmark" / "algorithms" / "experiments"
 POGEMA = runpy.run_path(str(ROOT / "plugins/policies/tests/observations/soak_pogema.py"))["Pogema"]
 """Asks the process of POGEMA."""
-PUBLISHED = {32: 2.286, 64: 3.819}
-"""Mean goals a step of RHCR, by number of robots."""
-WINDOW, PERIOD, STEPS = 10, 5, 256
+PUBLISHED = {
+    "01-random": {32: 2.286, 64: 3.819},
+    "02-mazes": {32: 1.703, 64: 2.587},
+}
+"""Mean goals a step of RHCR, by set and number of robots."""
+STEPS = {"01-random": 256, "02-mazes": 128}
+"""Steps of an episode, by set."""
+WINDOW, PERIOD = 10, 5
 ROBOT = load_robot("turtlebot3_burger")
 
 
@@ -80,10 +87,10 @@ class Grid:
         return steps
 
 
-def throughput(pogema: Any, file: Path, name: str, text: str, robots: int, planner: Planner) -> tuple[float, int]:
+def throughput(pogema: Any, grid: Grid, text: str, robots: int, steps: int, planner: Planner) -> tuple[float, int]:
     """Return the goals a step of one episode, and how often the planner had no plan."""
-    grid, failures = Grid.of(file, name), 0
-    config = {"map": text, "num_agents": robots, "seed": 0, "max_episode_steps": STEPS}
+    failures = 0
+    config = {"map": text, "num_agents": robots, "seed": 0, "max_episode_steps": steps}
     _, places, _ = pogema.reset(**config, on_target="restart", collision_system="soft")
     while True:
         chosen = grid.actions(grid.problem(places, pogema.goals(WINDOW + 1)), planner)
@@ -99,20 +106,24 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--planner", default="pbs", help="as in a study, e.g. '{plugin: pibt}'")
     parser.add_argument("--maps", type=int, default=128)
-    parser.add_argument("--robots", type=int, nargs="*", choices=list(PUBLISHED), default=[32], help="64 take hours")
+    parser.add_argument("--set", choices=list(PUBLISHED), default="01-random")
+    parser.add_argument("--robots", type=int, nargs="*", choices=[32, 64], default=[32], help="64 take hours")
     wanted = parser.parse_args()
     study = {"world": "office", "scenario": {"robots": 1}, "planner": yaml.safe_load(wanted.planner)}
     planner = load_study(study).runs[0].config.planner
-    file = PROBLEMS / "maps.yaml"
+    file = PROBLEMS / wanted.set / "maps.yaml"
     texts = dict(list(yaml.safe_load(file.read_text()).items())[: wanted.maps])
     pogema = POGEMA()
     for robots in wanted.robots:
-        runs = [throughput(pogema, file, name, text, robots, planner) for name, text in texts.items()]
+        runs = [
+            throughput(pogema, Grid.of(file, name), text, robots, STEPS[wanted.set], planner)
+            for name, text in texts.items()
+        ]
         rates = [rate for rate, _ in runs]
         reach = 1.96 * statistics.stdev(rates) / len(rates) ** 0.5
         failed = sum(failures for _, failures in runs)
         print(f"{robots} robots, {len(rates)} maps: {statistics.mean(rates):.3f} ± {reach:.3f} goals a step", end="")
-        print(f" ({PUBLISHED[robots]:.3f} as published); {failed} windows without a plan", flush=True)
+        print(f" ({PUBLISHED[wanted.set][robots]:.3f} as published); {failed} windows without a plan", flush=True)
     pogema.close()
 
 

@@ -1,30 +1,26 @@
-"""Compares a planner on the starts and goals of POGEMA's benchmark with the results that are published there.
+"""Compares a planner on the one-shot problems of POGEMA's benchmark with the results that are published there.
 
-    python benchmarks/pogema_tables.py [--benchmark FOLDER] [--set 03-warehouse] [--algorithm LaCAM] [--planner lacam]
-        [--robots 32] [--seeds 10]
+    python benchmarks/pogema_tables.py [--benchmark FOLDER] [--set 03-warehouse] [--planner lacam] [--robots 32]
+        [--problems 16]
 
-FOLDER is a checkout of https://github.com/CognitiveAISystems/pogema-benchmark, or `build/pogema/benchmark`, where `make
-pogema` writes the problems of `01-random`; without it, the excerpt of it that the tests have: 3 seeds of the warehouse
-with 32 and 64 robots. Robots are points on the grid (`simulator: none`), and the
-metrics are those of POGEMA. Of the published ones CSR, SoC and makespan are read; `ep_length` has another meaning.
-Planners that improve their plans do so in 300 iterations, so that results do not depend on the machine.
+FOLDER is `build/pogema/benchmark`, where `make pogema` writes the problems, or a checkout of
+https://github.com/CognitiveAISystems/pogema-benchmark; without it, the excerpt of it that the tests have: 3 seeds of
+the warehouse with up to 64 robots. Robots are points on the grid (`simulator: none`), and the metrics are those of
+POGEMA. Planners that improve their plans do so in 300 iterations, so that results do not depend on the machine.
 
-Some published makespans of `03-warehouse` are less than the longest of the shortest ways of the published starts and
-goals: those runs had others, and only means can be compared. Where no run shows it, runs are compared in pairs, too.
+Published means were counted in the published results of all problems of a set; results of single runs, with which a
+planner is compared in pairs, are read from FOLDER/raw_data_MAPF. `ep_length` has another meaning there and is not read.
 """
 
 import argparse
 import json
 import statistics
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import attrs
 import yaml
-from mrpbench_policies.maps import Maps
-from mrpbench_policies.pogema.files import read_map, read_scenario
 
 from mrpbench_core.api import InputError
 from mrpbench_core.config.study import load_study
@@ -33,91 +29,77 @@ from mrpbench_core.store.paths import RunPaths
 
 EXCERPT = Path(__file__).parents[1] / "plugins" / "policies" / "tests" / "pogema" / "excerpt"
 MEASURES = ("CSR", "SoC", "makespan")
+ALGORITHM = "LaCAM"
+PUBLISHED = {
+    ("01-random", 32): (1.000, 503.6),
+    ("01-random", 64): (1.000, 1213.6),
+    ("02-mazes", 32): (1.000, 625.7),
+    ("02-mazes", 64): (0.906, 2011.1),
+    ("03-warehouse", 96): (1.000, 2998.6),
+}
+"""Mean CSR and SoC of LaCAM over the 128 problems of a set, by set and number of robots."""
+
+Problem = tuple[str, int, int]
+"""A map, a seed and a number of robots."""
+Metrics = Mapping[str, float]
 
 
-def published(benchmark: Path, name: str, algorithm: str) -> Iterator[tuple[dict[str, Any], dict[str, float]]]:
-    """Yield the map, the seed and the number of robots of each published run, and its metrics.
+def published(benchmark: Path, name: str) -> dict[Problem, Metrics]:
+    """Return the metrics of each published run of a set.
 
     Raises:
         InputError: the folder has no such results.
     """
-    file = benchmark / "raw_data_MAPF" / name / f"{algorithm}.json"
+    file = benchmark / "raw_data_MAPF" / name / f"{ALGORITHM}.json"
     if not file.exists():
-        known = ", ".join(sorted(it.stem for it in file.parent.glob("*.json"))) or "no results of this set"
-        raise InputError("there is no such file", file=file, hint=f"there are: {known}")
-    for row in json.loads(file.read_text()):
-        yield row["env_grid_search"], {measure: float(row["metrics"][measure]) for measure in MEASURES}
+        known = ", ".join(sorted(it.parent.name for it in file.parents[1].glob(f"*/{ALGORITHM}.json")))
+        raise InputError("there is no such file", file=file, hint=f"there are results of {known or 'no set'}")
+    runs = json.loads(file.read_text())
+    return {problem_of(run["env_grid_search"]): run["metrics"] for run in runs}
 
 
-def experiment_of(benchmark: Path, name: str) -> tuple[Path, dict[str, Any]]:
-    """Return the file of starts and goals of a set, and its block `environment`."""
-    file = benchmark / "algorithms" / "experiments" / name / f"{name}-mapf.yaml"
+def problem_of(asked: Mapping[str, Any]) -> Problem:
+    """Return the problem of a published run; the set of one map does not name it, sets of one seed not that."""
+    return asked.get("map_name", "wfi_warehouse"), asked.get("seed", 0), asked["num_agents"]
+
+
+def read_set(file: Path) -> tuple[list[tuple[str, int]], int]:
+    """Return the maps and seeds of the problems of a set, and the steps of an episode."""
     loader = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-    environment: dict[str, Any] = yaml.load(file.read_text(), loader)["environment"]  # noqa: S506 - a safe loader
-    return file, environment
+    document = yaml.load(file.read_text(), loader)  # noqa: S506 - a safe loader
+    listed = [(scenario["map_name"], scenario["seed"]) for scenario in document["scenarios"].values()]
+    return listed, document["environment"]["max_episode_steps"]
 
 
-def measured(file: Path, environment: dict[str, Any], asked: dict[str, Any], planner: str) -> dict[str, float]:
-    """Return the metrics of a planner on the scenario that a published run had."""
+def measured(file: Path, problem: Problem, steps: int, planner: str) -> Metrics:
+    """Return the metrics of a planner on a problem of a set."""
+    name, seed, robots = problem
     study = {
         "name": "pogema",
-        "world": {
-            "plugin": "pogema",
-            "file": str(file.with_name("maps.yaml")),
-            "map": asked.get("map_name", environment["map_name"]),
-        },
+        "world": {"plugin": "pogema", "file": str(file.with_name("maps.yaml")), "map": name},
         "roadmap": "grid",
-        "scenario": {"plugin": "pogema", "file": str(file), "robots": asked["num_agents"]},
+        "scenario": {"plugin": "pogema", "file": str(file), "robots": robots},
         "fleet": {"robot": "turtlebot3_burger", "lidar": "none"},
         "planner": yaml.safe_load(planner),
         "simulator": "none",
         "limits": {"planning": "60 s", "iterations": 300},
-        "seed": asked.get("seed", 0),
-        "metrics": [{"plugin": "pogema", "steps": environment["max_episode_steps"]}],
+        "seed": seed,
+        "metrics": [{"plugin": "pogema", "steps": steps}],
     }
     with tempfile.TemporaryDirectory() as folder:
         paths = RunPaths(recording=Path(folder) / "run.zip", exports=Path(folder))
         record = execute(load_study(study).runs[0].config, "run", paths)
     if record.metrics.get("pogema.CSR") is None:
-        raise InputError(f"{asked}: {record.status}", hint=record.reason or None)
-    values = {measure: record.metrics[f"pogema.{measure}"] for measure in MEASURES}
-    return {measure: float("nan") if value is None else float(value) for measure, value in values.items()}
+        raise InputError(f"{problem}: {record.status}", hint=str(record.error) if record.error else None)
+    return {measure: float(record.metrics[f"pogema.{measure}"]) for measure in MEASURES}
 
 
-def longest_way(file: Path, environment: dict[str, Any], asked: dict[str, Any]) -> int:
-    """Return the steps of the longest of the shortest ways of the robots, less than which no makespan is."""
-    name = asked.get("map_name", environment["map_name"])
-    listed = read_scenario(file, name, asked.get("seed", 0))
-    maps = Maps(read_map(file.with_name("maps.yaml"), name)[None], 1)
-    start = maps.places(listed.start[None])[0][: asked["num_agents"]].tolist()
-    goals = (int(maps.places_in(0, cells)[-1]) for cells in listed.goals)
-    return max(int(maps.distances(goal)[place]) for place, goal in zip(start, goals, strict=False))
-
-
-@attrs.frozen(kw_only=True)
-class Pair:
-    """A scenario."""
-
-    ours: dict[str, float]
-    """The metrics of the planner."""
-    published: dict[str, float]
-    contradicted: bool
-    """The published makespan is less than the longest of the shortest ways."""
-
-
-def compare(
-    benchmark: Path, name: str, algorithm: str, planner: str, robots: int | None = None, seeds: int | None = None
-) -> dict[int, list[Pair]]:
-    """Return the metrics of the planner and the published ones, by number of robots."""
-    file, environment = experiment_of(benchmark, name)
-    pairs: dict[int, list[Pair]] = {}
-    for asked, theirs in published(benchmark, name, algorithm):
-        count = asked["num_agents"]
-        if robots in (None, count) and (seeds is None or asked.get("seed", 0) < seeds):
-            ours = measured(file, environment, asked, planner)
-            contradicted = theirs["makespan"] < longest_way(file, environment, asked)
-            pairs.setdefault(count, []).append(Pair(ours=ours, published=theirs, contradicted=contradicted))
-    return pairs
+def compare(benchmark: Path, name: str, planner: str, robots: int, count: int | None = None) -> dict[Problem, Metrics]:
+    """Return the metrics of a planner on the first problems of a set."""
+    file = benchmark / "algorithms" / "experiments" / name / f"{name}-mapf.yaml"
+    listed, steps = read_set(file)
+    asked = [(*problem, robots) for problem in listed[:count]]
+    return {problem: measured(file, problem, steps, planner) for problem in asked}
 
 
 def interval(values: list[float]) -> str:
@@ -128,46 +110,39 @@ def interval(values: list[float]) -> str:
     return f"{mean:.1f} ± {1.96 * statistics.stdev(values) / len(values) ** 0.5:.1f}"
 
 
+def paired(ours: Mapping[Problem, Metrics], theirs: Mapping[Problem, Metrics]) -> str:
+    """Return by how much costs differ from the published ones, on problems that both solve."""
+    both = [(run, theirs[problem]) for problem, run in ours.items() if problem in theirs]
+    costs = [(run["SoC"], other["SoC"]) for run, other in both if run["CSR"] == other["CSR"] == 1]
+    if not costs:
+        return "no results of single runs of these problems are at hand"
+    equal = sum(cost == published for cost, published in costs)
+    differences = [100 * (cost / published - 1) for cost, published in costs]
+    solved = sum(other["CSR"] for _, other in both)
+    return (
+        f"SoC in pairs: {equal} of {len(costs)} equal, {interval(differences)} % more; published runs solve "
+        f"{solved:.0f} of {len(both)}"
+    )
+
+
 def main() -> None:
     """Compare, and print a table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--benchmark", type=Path, default=EXCERPT)
     parser.add_argument("--set", default="03-warehouse")
-    parser.add_argument("--algorithm", default="LaCAM")
     parser.add_argument("--planner", default="lacam", help="as in a study, e.g. '{plugin: lacam, anytime: false}'")
-    parser.add_argument("--robots", type=int)
-    parser.add_argument("--seeds", type=int, help="seeds below this one")
+    parser.add_argument("--robots", type=int, nargs="*", default=[32])
+    parser.add_argument("--problems", type=int, help="the first ones only")
     wanted = parser.parse_args()
-    pairs = compare(wanted.benchmark, wanted.set, wanted.algorithm, wanted.planner, wanted.robots, wanted.seeds)
-    print(f"{wanted.set}: {wanted.planner}, and in brackets {wanted.algorithm} as published")
-    for robots, some in sorted(pairs.items()):
-        rates = (statistics.mean(run["CSR"] for run in runs) for runs in sides(some))
-        print("{} robots, {} runs: CSR {:.3f} ({:.3f})".format(robots, len(some), *rates))
-        for measure in ("SoC", "makespan"):
-            solved = [[run[measure] for run in runs if run["CSR"] == 1.0] for runs in sides(some)]
-            if all(solved):
-                print("    {} of solved runs {} ({})".format(measure, *map(interval, solved)))
-        if wrong := sum(pair.contradicted for pair in some):
-            print(f"    at least {wrong} of the published runs had other starts and goals than are published")
-        else:
-            print(f"    {paired(some)}")
-
-
-def paired(pairs: list[Pair]) -> str:
-    """Return by how much costs differ, for runs of the same problem that both solve."""
-    costs = [
-        (pair.ours["SoC"], pair.published["SoC"]) for pair in pairs if pair.ours["CSR"] == pair.published["CSR"] == 1
-    ]
-    equal = sum(ours == published for ours, published in costs)
-    differences = [100 * (ours / published - 1) for ours, published in costs]
-    return (
-        f"SoC in pairs: {equal} of {len(costs)} equal, {interval(differences)} % more" if costs else "no solved pairs"
-    )
-
-
-def sides(pairs: list[Pair]) -> tuple[list[dict[str, float]], list[dict[str, float]]]:
-    """Return the metrics of the planner, and the published ones."""
-    return [pair.ours for pair in pairs], [pair.published for pair in pairs]
+    theirs = published(wanted.benchmark, wanted.set)
+    for robots in wanted.robots:
+        ours = compare(wanted.benchmark, wanted.set, wanted.planner, robots, wanted.problems)
+        csr, soc, makespan = ([run[measure] for run in ours.values()] for measure in MEASURES)
+        print(f"{wanted.set}, {robots} robots, {len(ours)} problems, {wanted.planner}: ", end="")
+        print(f"CSR {statistics.mean(csr):.3f}, SoC {interval(soc)}, makespan {interval(makespan)}", flush=True)
+        if (wanted.set, robots) in PUBLISHED:
+            print("    {} as published: CSR {:.3f}, SoC {:.1f}".format(ALGORITHM, *PUBLISHED[wanted.set, robots]))
+        print(f"    {paired(ours, theirs)}", flush=True)
 
 
 if __name__ == "__main__":

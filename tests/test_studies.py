@@ -1,5 +1,7 @@
 """The studies: every file loads, and is as large as the page says."""
 
+import argparse
+import re
 import shutil
 from collections import Counter
 from pathlib import Path
@@ -8,6 +10,7 @@ import pytest
 
 from mrpbench_core import load
 from mrpbench_core.api.planner import Planner
+from mrpbench_core.cli import report
 from mrpbench_core.cli.main import main
 from mrpbench_core.config.study import load_study
 from mrpbench_core.plugins.registry import Registry
@@ -67,6 +70,18 @@ def test_every_study_is_known_here():
         "dynabarn",
         "movingai",
     }
+
+
+@pytest.mark.parametrize("file", sorted(FOLDER.glob("*.yaml")), ids=lambda file: file.stem)
+def test_the_report_that_a_study_names_is_one_of_its_results_by_its_keys(file):
+    parser = argparse.ArgumentParser()
+    report.configure(parser)
+    text = file.read_text()
+    for words in re.findall(r"^# +mrpbench report (.*)", text, re.MULTILINE):
+        asked = parser.parse_args(words.split())
+        assert all(str(folder).startswith("results/") for folder in asked.folders), words
+        for name in filter(None, (asked.by or "").split(",")):
+            assert re.search(rf"^[^#]*\b{re.escape(name.split('.')[-1])}\b.*:", text, re.MULTILINE), name
 
 
 def test_the_study_of_the_movingai_benchmark_finds_its_files_beside_it(shared_data, tmp_path):

@@ -40,7 +40,7 @@ TOLERANCE = 1e-9
 @attrs.frozen(kw_only=True)
 class PolicyPlanner(Planner):
     """Rolls a learned policy out on the cells of a raster: one call for all robots in each step, until all are at their
-    goals. Its statistics count the actions that the shield replaced.
+    goals. The metric `policy` says how many actions the shield replaced.
 
     Where turns or moves take time or robots have footprints, the policy sees robots as points that move one cell in a
     step all the same. The plan keeps the order in which robots pass each cell, and takes the time that they need.
@@ -68,6 +68,11 @@ class PolicyPlanner(Planner):
         None,
         help="the interpreter of another environment, which runs a Python file; none: the file is run with the planner",
     )
+    weights: Path | None = option(
+        None,
+        help="another file that the policy reads, which then identifies runs as `file` does: the external data of an "
+        "ONNX model, or the third argument of the class `Policy`",
+    )
     observation: Literal["pogema", "pogema_pomapf", "pogema_mapf", "mapf_gpt", "primal", "scrimp", "cost_to_go"] = (
         option("pogema", help="what the policy gets of each robot")
     )
@@ -91,7 +96,7 @@ class PolicyPlanner(Planner):
     def idle_options(self) -> dict[str, str]:
         """Return the options that the policy of this distribution makes idle."""
         if self.file is None:
-            return dict.fromkeys(("observation", "radius", "python"), "`file` is not set")
+            return dict.fromkeys(("observation", "radius", "python", "weights"), "`file` is not set")
         return {"python": "`file` is not a Python file"} if self.file.suffix != ".py" else {}
 
     def skip(self, problem: Problem) -> str | None:
@@ -130,22 +135,28 @@ class PolicyPlanner(Planner):
             InputError: the file is no policy for the observation.
         """
         file = self.file or SHIPPED
-        stat = file.stat() if file.exists() else None
-        changed = (stat.st_mtime_ns, stat.st_size) if stat else (0, 0)
+        changed = tuple(_stamp(it) for it in (file, self.weights) if it is not None)
         observation = self.build_observation()
-        return _loaded(file, changed, type(observation), observation.radius, shape, self.python)
+        return _loaded(file, changed, type(observation), observation.radius, shape, self.python, self.weights)
+
+
+def _stamp(file: Path) -> tuple[int, int]:
+    """Time of the last change and size of a file; zeros without one."""
+    stat = file.stat() if file.exists() else None
+    return (stat.st_mtime_ns, stat.st_size) if stat else (0, 0)
 
 
 @lru_cache(maxsize=4)
 def _loaded(
     file: Path,
-    _: tuple[int, int],
+    _: tuple[tuple[int, int], ...],
     observation: type[Observation],
     radius: int,
     shape: tuple[int, int],
     python: Path | None,
+    weights: Path | None,
 ) -> Acting:
-    return load(file, observation(radius), shape, python)
+    return load(file, observation(radius), shape, python, weights)
 
 
 class PolicySession(PlannerSession):
@@ -289,7 +300,6 @@ def _statistics(rollout: Rollout) -> dict[str, float]:
     counts = rollout.counts
     return {
         "steps": float(len(rollout.trace) - 1),
-        "shield_interventions": float(counts.illegal + counts.conflicting),
         "illegal_actions": float(counts.illegal),
         "conflicting_actions": float(counts.conflicting),
     }

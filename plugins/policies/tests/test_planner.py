@@ -141,7 +141,7 @@ def test_the_policy_of_this_distribution_solves_small_problems():
         """
     )
     planner = PolicyPlanner(shield="pibt")
-    assert planner.idle_options().keys() == {"observation", "radius", "python"}
+    assert planner.idle_options().keys() == {"observation", "radius", "python", "weights"}
     result = planner.plan(wanted, AMPLE)
     assert result.status == PlanStatus.SOLVED
     assert check_plan(wanted, result.plan).valid

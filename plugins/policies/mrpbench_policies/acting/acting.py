@@ -52,8 +52,10 @@ def check_choice(answer: Any, robots: int, file: Path) -> Float:
         if (wrong := np.isnan(scores).any(axis=1)).any():
             raise InputError(f"returned NaN as a score of robot_{int(wrong.argmax())}", file=file)
         return scores
-    if choice.shape not in ((robots,), (robots, 1)) or choice.dtype.kind == "f":
+    if choice.shape not in ((robots,), (robots, 1)):
         raise InputError(f"returned {choice.dtype} {list(choice.shape)}, not {wanted}", file=file)
+    if choice.dtype.kind == "f":
+        raise InputError(f"returned actions of {choice.dtype}, not of integers", file=file)
     actions = choice.reshape(robots)
     if (wrong := (actions < 0) | (actions >= len(ACTIONS))).any():
         robot = int(wrong.argmax())

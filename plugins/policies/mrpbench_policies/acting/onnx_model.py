@@ -1,5 +1,6 @@
 """Policies as ONNX models, which onnxruntime runs on one thread of the CPU."""
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -12,12 +13,17 @@ from mrpbench_policies.observations import Field
 
 NEXT = "next_"
 """Before the name of an input: the output that becomes this input in the next step."""
+FOLDER = "session.model_external_initializers_file_folder_path"
+"""The option of onnxruntime that says where external data is."""
 TYPES = {
     "tensor(float)": "f4",
     "tensor(double)": "f8",
     "tensor(float16)": "f2",
     "tensor(int64)": "i8",
     "tensor(int32)": "i4",
+    "tensor(int16)": "i2",
+    "tensor(int8)": "i1",
+    "tensor(uint8)": "u1",
     "tensor(bool)": "?",
 }
 
@@ -29,12 +35,18 @@ class OnnxModel(Acting):
     recurrent model: each has an output with the same name after `next_`, and is 0 at first. The first other output are
     the scores or actions.
 
+    Args:
+        file: for messages.
+        content: of the file.
+        fields: of the observation.
+        weights: the file of the initializers that the model does not contain (external data).
+
     Raises:
         InputError: onnxruntime is missing, it does not load the model, or the model does not fit.
     """
 
-    def __init__(self, file: Path, content: bytes, fields: Mapping[str, Field]) -> None:
-        self._file, self._session = file, _session(file, content)
+    def __init__(self, file: Path, content: bytes, fields: Mapping[str, Field], weights: Path | None = None) -> None:
+        self._file, self._session = file, _session(file, content, weights)
         outputs = [output.name for output in self._session.get_outputs()]
         inputs = {node.name: node for node in self._session.get_inputs()}
         self._memory_of = {name: NEXT + name for name in inputs if NEXT + name in outputs}
@@ -95,8 +107,8 @@ class OnnxModel(Acting):
 
     def _require_batch(self, node: Any) -> None:
         if not node.shape or isinstance(node.shape[0], int):
-            message = f"has the input {node.name!r} {_shape(node.shape)}, whose first axis is not dynamic"
-            raise InputError(message, file=self._file, hint="export it for any number of robots")
+            message = f"has the input {node.name!r} {_shape(node.shape)}, whose first axis has a fixed length"
+            raise InputError(message, file=self._file, hint="the first axis of each input is that of the robots")
 
     def _zero(self, node: Any) -> np.ndarray:
         self._require_batch(node)
@@ -106,24 +118,36 @@ class OnnxModel(Acting):
         return np.zeros(node.shape[1:], self._type(node))
 
 
-def _session(file: Path, content: bytes) -> Any:
+def _session(file: Path, content: bytes, weights: Path | None) -> Any:
     try:
         import onnxruntime
     except ImportError:
-        hint = "`pip install 'mrpbench-policies[onnx]'`"
-        raise InputError("is an ONNX model, and onnxruntime is not installed", file=file, hint=hint) from None
+        install = "`pip install 'mrpbench-policies[onnx]'`"
+        raise InputError("is an ONNX model, and onnxruntime is not installed", file=file, hint=install) from None
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = options.inter_op_num_threads = 1
     options.use_deterministic_compute = True
     options.log_severity_level = 4  # faults are raised
+    if weights is not None:
+        if not weights.is_file():
+            raise InputError("no such file", file=weights)
+        if weights.name.encode() not in content:
+            raise InputError(f"does not refer to {weights.name}, the file of the option `weights`", file=file)
+        options.add_session_config_entry(FOLDER, str(weights.parent.resolve()))
     try:
         return onnxruntime.InferenceSession(content, options, providers=["CPUExecutionProvider"])
     except Exception as error:  # noqa: BLE001 - onnxruntime has many
-        raise InputError(f"is not an ONNX model that onnxruntime runs: {_line(error)}", file=file) from None
+        apart = weights is None and ("External data" in str(error) or "model_path" in str(error))
+        hint = "its weights are in another file: name that by the option `weights`" if apart else None
+        message = f"is not an ONNX model that onnxruntime runs: {_line(error)}"
+        raise InputError(message, file=file, hint=hint) from None
 
 
 def _line(error: Exception) -> str:
-    return " ".join(str(error).split())[:300]
+    """Return the text of an error of onnxruntime without its code and the signature of a function of it."""
+    text = " ".join(str(error).split())
+    text = re.sub(r"^\[ONNXRuntimeError\] : \d+ : \w+ : ", "", text)
+    return re.sub(r"/onnxruntime_src/\S+:\d+ .*?\) (?=[A-Z!])", "", text)[:300]
 
 
 def _shape(shape: Any) -> str:

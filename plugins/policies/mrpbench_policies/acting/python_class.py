@@ -1,6 +1,9 @@
 """Runs a policy that is a Python class, in this process."""
 
+import hashlib
+import sys
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from mrpbench_core.api import Float, InputError
@@ -10,25 +13,29 @@ from mrpbench_policies.acting.acting import Acting, Arrays, check_choice
 class PythonClass(Acting):
     """The class `Policy` of a file: `act(observations)` returns scores or actions, see `check_choice`.
 
-    It is made anew for each execution, with the number of robots and the seed. If it has an attribute `memory`, a
-    mapping of arrays whose rows are robots, the planner sets it back where robots did not get as far as planned.
+    It is made anew for each plan, with the number of robots, the seed and the file `weights`, if there is one. If it
+    has an attribute `memory`, a mapping of arrays whose rows are robots, the planner sets that to what the policy
+    remembered where robots are now.
 
     Args:
         file: for messages.
         content: of the file.
+        weights: a file that the class reads.
 
     Raises:
         InputError: the file defines no such class.
     """
 
-    def __init__(self, file: Path, content: bytes) -> None:
-        self._file = file
-        names: dict[str, Any] = {"__name__": file.stem, "__file__": str(file)}
+    def __init__(self, file: Path, content: bytes, weights: Path | None = None) -> None:
+        self._file, self._further = file, () if weights is None else (str(weights),)
+        module = ModuleType("mrpbench_policy_" + hashlib.sha256(content).hexdigest()[:24])
+        module.__file__ = str(file)
+        sys.modules[module.__name__] = module  # dataclasses and pickle find classes there
         try:
-            exec(compile(content, str(file), "exec"), names)  # noqa: S102 - the user names the file to run it
+            exec(compile(content, str(file), "exec"), vars(module))  # noqa: S102 - the user names the file to run it
         except SyntaxError as error:
             raise InputError(f"is not Python: {error.msg}", file=file, line=error.lineno) from None
-        made = names.get("Policy")
+        made = getattr(module, "Policy", None)
         if not isinstance(made, type) or not callable(getattr(made, "act", None)):
             raise InputError("defines no class `Policy` with a method `act`", file=file)
         self._class: Any = made
@@ -37,7 +44,7 @@ class PythonClass(Acting):
 
     def begin(self, robots: int, seed: int) -> None:
         """Make a new policy."""
-        self._robots, self._policy = robots, self._class(robots, seed)
+        self._robots, self._policy = robots, self._class(robots, seed, *self._further)
 
     @property
     def memory(self) -> Any:

@@ -1,6 +1,7 @@
 """Runs a policy that is a Python class by another interpreter, whose packages may differ from those of this one."""
 
 import pickle
+import signal
 import subprocess
 import tempfile
 import weakref
@@ -8,29 +9,29 @@ from contextlib import suppress
 from pathlib import Path
 from typing import IO, Any
 
-import numpy as np
-
 from mrpbench_core.api import Float, InputError
 from mrpbench_policies.acting.acting import Acting, Arrays, check_choice
+from mrpbench_policies.acting.serve import arrays_of, plain
 
 SERVER = Path(__file__).with_name("serve.py")
 
 
 class PythonProcess(Acting):
-    """The class `Policy` of a file, as `PythonClass` has it, run by another interpreter. What it remembers stays there.
+    """The class `Policy` of a file, as `PythonClass` has it, run by another interpreter.
 
     Args:
         file: the file.
         python: an interpreter whose environment has NumPy and what the policy needs.
+        weights: a file that the class reads.
 
     Raises:
         InputError: the interpreter does not run, or the file defines no such class.
     """
 
-    def __init__(self, file: Path, python: Path) -> None:
+    def __init__(self, file: Path, python: Path, weights: Path | None = None) -> None:
         self._file, self._robots, self.memory = file, 0, {}
         self._log = tempfile.TemporaryFile()  # noqa: SIM115 - as long as the process
-        command = [python, SERVER, file]
+        command = [python, SERVER, file, *([] if weights is None else [weights])]
         try:
             self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._log)
         except OSError as error:
@@ -43,13 +44,13 @@ class PythonProcess(Acting):
     def begin(self, robots: int, seed: int) -> None:
         """Make a new policy."""
         self._robots = robots
-        self._ask("begin", robots, seed)
+        self.memory = arrays_of(self._ask("begin", robots, seed))
 
     def act(self, observations: Arrays) -> Float:
         """Ask the policy."""
-        arrays = {name: (array.dtype.str, array.shape, array.tobytes()) for name, array in observations.items()}
-        kind, shape, data = self._ask("act", arrays)
-        return check_choice(np.frombuffer(data, kind).reshape(shape), self._robots, self._file)
+        answer, memory = self._ask("act", plain(observations), plain(self.memory))
+        self.memory = arrays_of(memory)
+        return check_choice(arrays_of({"answer": answer})["answer"], self._robots, self._file)
 
     def _ask(self, *request: Any) -> Any:
         assert self._process.stdin is not None
@@ -61,13 +62,17 @@ class PythonProcess(Acting):
     def _receive(self) -> Any:
         assert self._process.stdout is not None
         try:
-            return pickle.load(self._process.stdout)  # noqa: S301 - from the process that this one started
+            failure, line, answer = pickle.load(self._process.stdout)  # noqa: S301 - from the process that this one started
         except (EOFError, pickle.UnpicklingError):
-            self._process.wait()
+            status = self._process.wait()
+            how = f"exit code {status}" if status >= 0 else signal.Signals(-status).name
             self._log.seek(0)
             lines = self._log.read().decode(errors="replace").split("\n")
-            last = next((line for line in reversed(lines) if line.strip()), "no message")
-            raise InputError(f"its process ended: {last.strip()[:300]}", file=self._file) from None
+            last = next((f": {line.strip()[:300]}" for line in reversed(lines) if line.strip()), "")
+            raise InputError(f"its process ended with {how}{last}", file=self._file) from None
+        if failure:
+            raise InputError(failure[:300], file=self._file, line=line)
+        return answer
 
 
 def _end(process: "subprocess.Popen[bytes]", log: IO[bytes]) -> None:

@@ -1,45 +1,83 @@
-"""Runs the class `Policy` of a Python file for another process: `python serve.py FILE`.
+"""Runs the class `Policy` of a Python file for another process: `python serve.py FILE [WEIGHTS]`.
 
 The interpreter may be that of another environment, which has NumPy and what the policy needs, but not mrpbench.
-Requests and answers are pickles of plain values, arrays as (dtype, shape, bytes), so that versions of NumPy do not
-matter.
+Requests and answers are pickles of plain values, so that versions of NumPy do not matter. An answer is an error, the
+line of the file at which it was raised, and the value.
 """
 
+import os
 import pickle
 import sys
+import traceback
+from collections.abc import Mapping
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 
 
+def plain(arrays: Mapping[str, Any]) -> dict[str, Any]:
+    """Return arrays by name as (dtype, shape, bytes)."""
+    return {name: (array.dtype.str, array.shape, array.tobytes()) for name, array in arrays.items()}
+
+
+def arrays_of(plain_arrays: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the arrays by name for what `plain` returned; they can be written."""
+    return {name: np.frombuffer(data, kind).reshape(shape).copy() for name, (kind, shape, data) in plain_arrays.items()}
+
+
+class Server:
+    """The policy of a file, and what it answers."""
+
+    def __init__(self, file: str, weights: list[str]) -> None:
+        self._weights = weights
+        module = ModuleType("policy")
+        module.__file__ = file
+        sys.modules["policy"] = module  # dataclasses and pickle find classes there
+        exec(compile(Path(file).read_bytes(), file, "exec"), vars(module))  # noqa: S102 - the user names the file to run it
+        self._class: Any = getattr(module, "Policy", None)
+        self._policy: Any = None
+
+    def is_policy(self) -> bool:
+        """Tell whether the file has a class `Policy` with a method `act`."""
+        return isinstance(self._class, type) and callable(getattr(self._class, "act", None))
+
+    def begin(self, robots: int, seed: int) -> Any:
+        """Make a new policy; return its memory."""
+        self._policy = self._class(robots, seed, *self._weights)
+        return plain(getattr(self._policy, "memory", {}))
+
+    def act(self, observations: Any, memory: Any) -> Any:
+        """Return what the policy answers, and its memory after that."""
+        if hasattr(self._policy, "memory"):
+            self._policy.memory = arrays_of(memory)
+        answer = np.asarray(self._policy.act(arrays_of(observations)))
+        return plain({"answer": answer})["answer"], plain(getattr(self._policy, "memory", {}))
+
+
 def main() -> None:
     """Answer requests until there are none."""
-    answers, sys.stdout = sys.stdout.buffer, sys.stderr  # what the policy prints is not an answer
-    file = sys.argv[1]
-    content = Path(file).read_bytes()
-    names: dict[str, Any] = {"__name__": "policy", "__file__": file}
-    exec(compile(content, file, "exec"), names)  # noqa: S102 - the user names the file to run it
-    made: Any = names.get("Policy")
-    policy: Any = None
-    sound = isinstance(made, type) and callable(getattr(made, "act", None))
-    pickle.dump(sound, answers)
-    answers.flush()
-    while sound:
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what the policy prints is not an answer
+    file, *weights = sys.argv[1:]
+    server: Any = None
+    while True:
+        error, line, value = "", None, None
         try:
-            request = pickle.load(sys.stdin.buffer)  # noqa: S301 - from the process that started this one
+            if server is None:
+                server = Server(file, weights)
+                value = server.is_policy()
+            else:
+                name, *arguments = pickle.load(sys.stdin.buffer)  # noqa: S301 - from the process that started this one
+                value = getattr(server, name)(*arguments)
         except EOFError:
             return
-        if request[0] == "begin":
-            policy = made(*request[1:])
-            answer = None
-        else:
-            observations = {
-                name: np.frombuffer(data, kind).reshape(shape) for name, (kind, shape, data) in request[1].items()
-            }
-            array = np.asarray(policy.act(observations))
-            answer = (array.dtype.str, array.shape, array.tobytes())
-        pickle.dump(answer, answers)
+        except Exception as raised:  # noqa: BLE001 - policies raise anything
+            error = " ".join(f"{type(raised).__name__}: {raised}".split())
+            lines = [frame.lineno for frame in traceback.extract_tb(raised.__traceback__) if frame.filename == file]
+            line = lines[-1] if lines else None
+        pickle.dump((error, line, value), answers)
         answers.flush()
 
 

@@ -9,7 +9,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 
 from mrpbench_policies.env.episode import Episodes, Task
 from mrpbench_policies.env.scenes import Scenes
-from mrpbench_policies.env.spaces import joined, seed_of, space_of
+from mrpbench_policies.env.spaces import actions_of, joined, seed_of, space_of
 from mrpbench_policies.env.world_model import Depth, Grid, Steps
 from mrpbench_policies.observations import Observation, PogemaDefault
 
@@ -70,8 +70,7 @@ class FleetVectorEnv(VectorEnv[Any, Any, Any]):
     def step(self, actions: Any) -> tuple[Any, Any, Any, Any, dict[str, Any]]:
         """Let a step pass in all environments."""
         assert self._steps is not None, "call `reset` before `step`"
-        chosen = np.asarray(actions, np.int64).reshape(self.num_envs, -1)
-        self._steps.step(chosen)
+        self._steps.step(actions_of(actions, self.num_envs, self._scenes.robots))
         rewards, terminated, truncated = self._episodes.after_step()
         again = self._ended
         for environment in np.flatnonzero(again).tolist():
@@ -154,7 +153,7 @@ class FleetEnv(gymnasium.Env[Any, Any]):
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """Let a step pass."""
         assert self._steps is not None, "call `reset` before `step`"
-        self._steps.step(np.asarray(action, np.int64)[None])
+        self._steps.step(actions_of(action, self._scenes.robots)[None])
         rewards, terminated, truncated = self._episodes.after_step()
         info: dict[str, Any] = {"rewards": rewards[0], "moving": self._steps.moving[0].copy()}
         done = bool(terminated.all())

@@ -36,6 +36,7 @@ class FleetParallelEnv(ParallelEnv[str, Any, int]):  # type: ignore[misc] # Pett
         depth: how robots move.
         task: what they have to do.
         observation: what they perceive.
+        render_mode: `ansi`: `render()` returns the map as text.
     """
 
     metadata: dict[str, Any] = {"name": "mrpbench_fleet_v0", "render_modes": ["ansi"], "is_parallelizable": True}  # noqa: RUF012 - PettingZoo's
@@ -118,7 +119,7 @@ class FleetParallelEnv(ParallelEnv[str, Any, int]):  # type: ignore[misc] # Pett
         return whole.reshape(maps.height, maps.width, 3)[ring, ring]
 
     def render(self) -> str | None:
-        """Return the map as text: `#` blocked, letters of robots, their capitals at goals."""
+        """Return the map as text: `#` blocked, `r` robots, `G` goals without one, `.` free."""
         if self.render_mode is None or self._steps is None:
             return None
         obstacles, robots, goals = np.moveaxis(self.state(), -1, 0)
@@ -166,6 +167,7 @@ def parallel_env(
     depth: Literal["grid", "timed", "full_stack"] | Depth = "grid",
     task: Task | None = None,
     observation: Observation | None = None,
+    render_mode: Literal["ansi"] | None = None,
     **overrides: Any,
 ) -> FleetParallelEnv:
     """Return the environment of a study: the instances of its first run, with any seed.
@@ -174,7 +176,8 @@ def parallel_env(
         study: a file, or its content.
         depth: how robots move.
         task: what they have to do.
-        observation: what they perceive.
+        observation: what they perceive, e.g. `CostToGo(4)`.
+        render_mode: as in `FleetParallelEnv`.
         overrides: settings of the study, e.g. `scenario={"plugin": "random", "robots": 8}`.
 
     Raises:
@@ -182,7 +185,7 @@ def parallel_env(
     """
     scenes = StudyScenes(study, [f"{name}={value}" for name, value in overrides.items()])
     if isinstance(depth, Depth):
-        return FleetParallelEnv(scenes, depth, task, observation)
+        return FleetParallelEnv(scenes, depth, task, observation, render_mode)
     depths: dict[str, Callable[[], Depth]] = {
         "grid": Grid,
         "timed": Timed,
@@ -190,4 +193,4 @@ def parallel_env(
     }
     if depth not in depths:
         raise InputError(f"there is no depth {depth!r}", hint=f"known: {', '.join(depths)}")
-    return FleetParallelEnv(scenes, depths[depth](), task, observation)
+    return FleetParallelEnv(scenes, depths[depth](), task, observation, render_mode)

@@ -7,6 +7,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import NDArray
 
+from mrpbench_core.api import Int
 from mrpbench_policies.observations import Field, Observation
 
 
@@ -46,3 +47,18 @@ def seed_of(seed: int) -> int:
     if seed < 0:
         raise ValueError(f"a seed is at least 0, not {seed}")
     return int(seed)
+
+
+def actions_of(actions: Any, *shape: int) -> Int:
+    """Return actions as i8 of a shape.
+
+    Raises:
+        ValueError: they have another shape, or are not integers from 0 to 4.
+    """
+    chosen = np.asarray(actions)
+    if chosen.shape != shape or chosen.dtype.kind not in "iu":
+        raise ValueError(f"actions are integers {list(shape)}, not {chosen.dtype} {list(chosen.shape)}")
+    if chosen.size and not 0 <= chosen.min() <= chosen.max() <= 4:
+        raise ValueError(f"actions are 0 to 4, not {chosen.min()} to {chosen.max()}")
+    found: Int = chosen.astype(np.int64, copy=False)
+    return found

@@ -15,7 +15,8 @@ SOURCE = "Skrynnik et al., POGEMA: A Benchmark Platform for Cooperative Multi-Ag
 @attrs.frozen(kw_only=True)
 class PogemaMetrics(Metric):
     """Measures POGEMA's metrics by the definitions of its code, in steps of one tick of the roadmap. Of runs with an
-    execution, the true poses count, so that bodies, delays and contacts do; of others, the plan.
+    execution, the true poses count, so that bodies, delays and contacts do; of others, the plan. Without either, robots
+    stay where they are.
 
     On a raster, a robot is at its goal if it is in its cell; elsewhere, if it is within `goal_tolerance` of it.
     """
@@ -50,8 +51,6 @@ class PogemaMetrics(Metric):
         problem = run.context.problem
         values: dict[str, Value] = {column.name: None for column in self.columns}
         lifelong = any(len(goals) > 1 for goals in problem.goals)
-        if run.planned and run.context.result.plan is None and not lifelong:
-            return values | {"CSR": 0.0}
         place = _places(run, self.steps)
         if place is None:
             return values
@@ -78,11 +77,10 @@ def _places(run: FinishedRun, steps: int) -> Float | None:
         sample = np.searchsorted(time, at + 1e-9, side="right") - 1
         positions: Float = truth[np.maximum(sample, 0), :, :2]
         return positions
-    plan = context.result.plan
+    plan, position = context.result.plan, context.problem.roadmap.position
     if plan is None:
-        return None
-    vertices = _vertices(Paths.of(plan.paths), run, steps)
-    return context.problem.roadmap.position[vertices]
+        return np.repeat(position[context.problem.start][None], steps, axis=0) if run.planned else None
+    return position[_vertices(Paths.of(plan.paths), run, steps)]
 
 
 def _vertices(paths: Paths, run: FinishedRun, steps: int) -> Int:

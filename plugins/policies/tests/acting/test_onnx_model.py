@@ -50,7 +50,7 @@ def test_recurrent_models_remember_from_step_to_step(loaded, models):
     [
         (lambda models: b"hello", "is not an ONNX model that onnxruntime runs"),
         (lambda models: models.linear(WEIGHT)[:200], "is not an ONNX model that onnxruntime runs"),
-        (lambda models: models.linear(WEIGHT, shape=(4, 3, 5, 5)), "whose first axis is not dynamic"),
+        (lambda models: models.linear(WEIGHT, shape=(4, 3, 5, 5)), "whose first axis has a fixed length"),
         (lambda models: models.linear(np.zeros((147, 5)), shape=("n", 3, 7, 7)), "is [3, 5, 5] for each robot"),
     ],
 )
@@ -93,3 +93,55 @@ def test_files_that_are_too_large_or_missing_are_refused(tmp_path):
     (tmp_path / "policy.pt").write_bytes(b"x")
     with pytest.raises(InputError, match="is neither an ONNX model"):
         load(tmp_path / "policy.pt", OBSERVATION, (8, 8))
+
+
+@pytest.fixture
+def apart(tmp_path, models):
+    """A model whose weights are in another file."""
+    file = tmp_path / "apart.onnx"
+    whole = onnx.load_model_from_string(models.linear(WEIGHT))
+    onnx.save_model(whole, file, save_as_external_data=True, location="apart.data", size_threshold=0)
+    return file
+
+
+def test_external_data_is_read_from_the_file_of_weights(apart, tmp_path, monkeypatch):
+    monkeypatch.chdir("/")
+    acting = load(apart, OBSERVATION, (8, 8), weights=tmp_path / "apart.data")
+    acting.begin(7, 0)
+    rows = windows(7)
+    np.testing.assert_allclose(acting.act(rows), rows["observation"].reshape(7, 75) @ WEIGHT, rtol=1e-5)
+
+
+def test_external_data_that_is_not_named_is_one_line(apart, tmp_path):
+    with pytest.raises(InputError, match="its weights are in another file: name that by the option `weights`"):
+        load(apart, OBSERVATION, (8, 8))
+    with pytest.raises(InputError, match=r"other\.data: no such file"):
+        load(apart, OBSERVATION, (8, 8), weights=tmp_path / "other.data")
+    (tmp_path / "other.data").write_bytes(b"")
+    with pytest.raises(InputError, match=r"does not refer to other\.data"):
+        load(apart, OBSERVATION, (8, 8), weights=tmp_path / "other.data")
+
+
+def test_an_error_of_onnxruntime_says_the_cause_first(loaded, models):
+    future = onnx.load_model_from_string(models.linear(WEIGHT))
+    future.opset_import[0].version = 999
+    with pytest.raises(InputError) as caught:
+        loaded(future.SerializeToString())
+    message = str(caught.value)
+    assert "onnxruntime runs: ONNX Runtime only" in message
+    assert "999" in message
+
+
+@pytest.mark.parametrize("kind", ["UINT8", "INT8", "INT16", "INT32", "FLOAT16", "DOUBLE", "BOOL"])
+def test_inputs_have_any_type_of_numbers(loaded, models, kind):
+    nodes = [
+        onnx.helper.make_node("Cast", ["observation"], ["numbers"], to=onnx.TensorProto.FLOAT),
+        onnx.helper.make_node("Flatten", ["numbers"], ["flat"], axis=1),
+        onnx.helper.make_node("MatMul", ["flat", "weight"], ["scores"]),
+    ]
+    inputs = {"observation": (getattr(onnx.TensorProto, kind), ["robots", 3, 5, 5])}
+    outputs = {"scores": (onnx.TensorProto.FLOAT, ["robots", 5])}
+    acting = loaded(models.model(nodes, inputs, outputs, {"weight": WEIGHT}))
+    acting.begin(2, 0)
+    rows = {"observation": (windows(2)["observation"] > 0.5).astype(np.float32)}
+    np.testing.assert_allclose(acting.act(rows), rows["observation"].reshape(2, 75) @ WEIGHT, rtol=1e-3, atol=1e-4)

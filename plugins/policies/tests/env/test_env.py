@@ -311,3 +311,32 @@ def test_errors_are_one_line():
     env.reset(seed=0)
     with pytest.raises(ValueError, match="actions are 0 to 4"):
         env.step({"robot_0": 5})
+
+
+@pytest.mark.parametrize(
+    ("actions", "message"),
+    [
+        ([0, 0, 0, -1], "actions are 0 to 4, not -1 to 0"),
+        ([0, 5, 0, 0], "actions are 0 to 4, not 0 to 5"),
+        ([0, 1.9, 0, 0], r"actions are integers \[4\], not float64 \[4\]"),
+        (2, r"actions are integers \[4\], not int64 \[\]"),
+        ([[0, 0], [0, 0]], r"actions are integers \[4\], not int64 \[2, 2\]"),
+    ],
+)
+def test_actions_of_another_kind_are_refused(actions, message):
+    env = FleetEnv(SCENES)
+    env.reset(seed=0)
+    with pytest.raises(ValueError, match=message):
+        env.step(actions)
+    batch = FleetVectorEnv(SCENES, 2)
+    batch.reset(seed=0)
+    with pytest.raises(ValueError, match=r"actions are integers \[2, 4\], not int64 \[4, 2\]"):
+        batch.step(np.zeros((4, 2), int))
+
+
+def test_the_environment_of_a_study_is_drawn_as_text():
+    env = parallel_env(STUDY, render_mode="ansi")
+    env.reset(seed=0)
+    drawn = env.render()
+    assert drawn.count("r") == len(env.agents)
+    assert set(drawn) == set("#r.G\n")

@@ -44,15 +44,19 @@ def patched(config: Mapping[str, Any], changes: Changes) -> dict[str, Any]:
     """Return a canonical configuration with other values of some options."""
     result = dict(config)
     for key, value in changes.items():
-        block, *steps = key.split(".")
-        if not steps:
-            result[block] = value
-            continue
-        result[block] = inner = dict(result[block])
-        for step in steps[:-1]:
-            inner[step] = inner = dict(inner[step])
-        inner[steps[-1]] = value
+        result = _with(result, key.split("."), value)
     return result
+
+
+def _with(item: Any, steps: Sequence[str], value: Any) -> Any:
+    """Plain data with another value of the option to which some steps lead; a step into a list is an index."""
+    if not steps:
+        return value
+    step, *rest = steps
+    if isinstance(item, Mapping):
+        return {**item, step: _with(item[step] if rest else None, rest, value)}
+    place = int(step)
+    return [*item[:place], _with(item[place], rest, value), *item[place + 1 :]]
 
 
 def packed_runs(

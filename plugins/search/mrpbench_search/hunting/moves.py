@@ -1,12 +1,13 @@
 """Moves of a hunt: new cases, and cases near another one.
 
 Robots that never meet break nothing. New cases therefore lead pairs of robots along one edge in opposite directions at
-the same time, or all robots through one vertex, and some robots through the start or goal of another one. The edge
-begins at any vertex, or, more often, at one of a kind (`Space.kinds`): all kinds have the same probability, so that a
-junction of which there is one is tried as often as those of which there are many. In half of the new cases all pairs
-meet at one vertex. Tasks over time belong to no robot: of these some that follow one another get goals near one vertex
-at about the same time. Of several cases that moves make, the one is taken in which most robots would meet if they drove
-alone (`meetings`).
+the same time, or all robots through one vertex. The edge begins at any vertex, or, more often, at one of a kind
+(`Space.kinds`): all kinds have the same probability, so that a junction of which there is one is tried as often as
+those of which there are many. In half of the new cases all pairs meet at one vertex. Tasks over time belong to no
+robot: of these some that follow one another get goals near one vertex at about the same time. Of several cases that
+moves make, the one is taken in which most robots would meet if they drove alone (`meetings`). In a quarter of the new
+cases a robot is then led through the start or goal of another one, or on a long way through the goals of others that
+have long rested.
 """
 
 from collections.abc import Callable, Sequence
@@ -60,7 +61,11 @@ class Moves:
 
     def new(self) -> Case:
         """Return a case that is near no other one: a draw in which robots meet."""
-        return max([self._new() for _ in range(SEVERAL)], key=lambda case: meetings(self.space, case))
+        case = max([self._new() for _ in range(SEVERAL)], key=lambda case: meetings(self.space, case))
+        if case.robots > 1 and case.stream is None and self.rng.random() < 0.25:
+            order = self.rng.permutation(case.robots).tolist()
+            case = self._passing(case, *order[:2]) if self.rng.random() < 0.5 else self._resting(case, order)
+        return case
 
     def near(self, case: Case) -> Case:
         """Return a case that differs from another one in one or a few ways."""
@@ -77,8 +82,6 @@ class Moves:
         else:
             for pair in zip(order[::2], order[1::2], strict=False):
                 case = self._meeting(case, *pair, vertex)
-        if case.robots > 1 and case.stream is None and self.rng.random() < 0.25:
-            case = self._passing(case, *order[:2])
         events = (
             event if event.get("at") is None else event | self._elsewhere(case, event | {"place": None})
             for event in case.events
@@ -179,6 +182,31 @@ class Moves:
                 if self._has_room(found):
                     return found
         return case
+
+    def _resting(self, case: Case, order: Sequence[int]) -> Case:
+        """Lead the first robot on a long way through the goals of others, which start near them and rest long."""
+        space, (one, *others) = self.space, order
+        between = space.distance[:, space.vertex]
+        between = np.where(np.isfinite(between), between, 0)
+        longest = np.argsort(-between.max(axis=1), kind="stable")
+        best, most = case, 0.0
+        for _ in range(TRIES):
+            start = self._near(longest)
+            goal = self._near(np.argsort(-between[start], kind="stable"))
+            on_way = space.between(start, goal)[space.vertex] < EXACT
+            on_way[[start, goal]] = False
+            found, rested = self._placed(case, one, start, goal), 0.0
+            places = np.flatnonzero(on_way)
+            places = places[np.argsort(-between[start, places], kind="stable")]
+            for other in others if len(places) else ():
+                rest = self._near(places)
+                near = self._one_of(space.nearest(rest, NEAR))
+                placed = found if near is None else self._placed(found, other, near, rest)
+                if placed is not found and self._has_room(placed):
+                    found, rested = placed, rested + between[start, rest] - between[near, rest]
+            if rested > most and self._has_room(found):
+                best, most = found, rested
+        return best
 
     def _gathered(self, case: Case) -> Case:
         """Let tasks over time that follow one another have goals near one vertex, at about the same time."""

@@ -10,6 +10,7 @@ from scipy.sparse.csgraph import dijkstra
 
 from mrpbench_core.api.task_source import TaskStream
 from mrpbench_core.config.unpacking import unpack
+from mrpbench_core.engine.contract_checks import check_drawn, check_returned
 from mrpbench_core.engine.loading.runs import StudyRun
 from mrpbench_core.engine.prepare.make_instance import build_run_instance
 from mrpbench_core.engine.prepare.question import Question
@@ -143,14 +144,17 @@ def _one_by_one(entries: Sequence[dict[str, Any]], robots: int) -> tuple[dict[st
 def draw(parcel: Mapping[str, Any], seeds: Sequence[int]) -> dict[str, Any]:
     """In a worker process: return the scenarios and tasks of some seeds, and the roadmap, as plain data."""
     question = Question.of(unpack(parcel))
+    found = build_run_instance(attrs.evolve(question, seed=seeds[0]), ignore)
     scenarios, streams = [], []
     for seed in seeds:
-        found = build_run_instance(attrs.evolve(question, seed=seed), ignore)
-        scenarios.append(encode(attrs.evolve(found.scenario, stream=""), inlined))
+        drawn = question.scenario.draw(found.world, found.roadmap, found.fleet, seed)
+        scenario = check_drawn(check_returned(question.scenario, drawn, Scenario), len(found.fleet))
         if question.tasks is not None:
+            scenario = attrs.evolve(scenario, tasks=())
             args = found.world, found.roadmap, found.fleet, seed
             tasks = _released(question.tasks.start(*args), question.tasks.start(*args), parcel)
             streams.append([encode(task, inlined) for task in tasks])
+        scenarios.append(encode(attrs.evolve(scenario, stream=""), inlined))
     roadmap = found.roadmap
     arrays = {name: inlined(getattr(roadmap, name)) for name in ("position", "level", "edges", "duration")}
     return {

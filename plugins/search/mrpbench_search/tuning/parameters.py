@@ -88,7 +88,8 @@ def _named(config: Any, text: str) -> Parameter:
     key, _, values = text.partition("=")
     owner, steps = config, key.strip().split(".")
     for step in steps[:-1]:
-        owner = getattr(owner, step, None)
+        inside = isinstance(owner, tuple) and step.isdigit() and int(step) < len(owner)
+        owner = owner[int(step)] if inside else getattr(owner, step, None)
     fields = {field.alias: field for field in attrs.fields(type(owner))} if attrs.has(type(owner)) else {}
     if steps[-1] not in fields:
         hint = did_you_mean(steps[-1], list(fields)) if fields else "e.g. controller.k_phi"

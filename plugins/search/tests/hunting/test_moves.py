@@ -110,6 +110,21 @@ def test_a_robot_passes_the_start_or_the_goal_of_another_one(seed):
     assert any(start != end != goal and ways[start, end] + ways[end, goal] == ways[start, goal] for end in ends)
 
 
+@given(st.integers(0, 10**6))
+def test_a_robot_comes_to_the_goals_of_others_long_after_they_have_arrived(seed):
+    case = moves(seed)._resting(FIRST, [1, 0, 2, 3])
+    assert distinct(case.scenario.start)
+    assert distinct([task.goals[0] for task in case.tasks])
+    ways, starts = SPACE.distance, [place(pose) for pose in case.scenario.start]
+    goals = [place(task.goals[0]) for task in case.tasks]
+    passed = [
+        other
+        for other in (0, 2, 3)
+        if ways[starts[1], goals[other]] + ways[goals[other], goals[1]] == ways[starts[1], goals[1]]
+    ]
+    assert max(ways[starts[1], goals[other]] - ways[starts[other], goals[other]] for other in passed) >= SIDE / 2
+
+
 def place(pose):
     return int(pose[0] + SIDE * pose[1])
 
