@@ -59,8 +59,7 @@ class DependencyGraph:
         """i4[m]: the first move of the rotation that each move belongs to, -1 for other moves."""
         for first, rotation in self.rotations.items():
             self.rotation[list(rotation)] = first
-        alone = np.arange(len(moves.robot), dtype=np.int32)
-        self.group_of_moves: Int32 = np.where(self.rotation < 0, alone, self.rotation)
+        self.group_of_moves: Int32 = np.where(self.rotation < 0, np.arange(len(moves.robot), dtype="i4"), self.rotation)
         """i4[m]: the first move of the group of each move."""
         sizes = Paths.of(plan.paths).size
         self._stride = int(sizes.max(initial=0)) + 1
