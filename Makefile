@@ -152,7 +152,7 @@ ros: ## test live ROS 2, with rclpy from PyPI in its own environment (Python 3.1
 	$(ROS)/python -m pytest -p no:cacheprovider plugins/bridges/ros2
 
 LIVE := build/live/bin
-live: ## measure live fleets, a line for each figure with what was asked: orders of vda5050-sdk and vda-5050-lib, 100,000 broken messages, a broker killed 20 times, the load test, the patrol swap, the table of Open-RMF (an hour); ARGS="--only swap" for less; needs mosquitto, and npm
+live: ## measure live fleets, a line for each figure with what was asked: orders of vda5050-sdk and vda-5050-lib, 100,000 broken messages, a broker killed 20 times, 1,000 vehicles, throughput over MQTT, the load test, the patrol swap, the table of Open-RMF (an hour and a half); ARGS="--only swap" for less; needs mosquitto, and npm
 	test -x $(LIVE)/python || $(PYTHON) -m venv build/live
 	$(LIVE)/python -m pip install --quiet hypothesis pytest pytest-timeout vda5050-sdk aiomqtt -e . ./native -e plugins -e 'plugins/live[rmf,vda5050]'
 	if command -v npm >/dev/null; then npm install --silent --no-save --prefix build/live vda-5050-lib@1.4.0; fi

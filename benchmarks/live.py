@@ -4,9 +4,10 @@
     python benchmarks/live.py --only broker swap
 
 `make live` runs it in an environment of its own with what other parties need: `mosquitto`, `vda5050-sdk`, and the npm
-package `vda-5050-lib` on NODE_PATH. It takes about an hour. Fleets of VDA 5050 are tests of `plugins/live/tests` with
-larger numbers; those of Open-RMF are `rmf_scenarios.py` and `rmf_traffic.py`. The figures of times are those of this
-machine, which should have nothing else to do. The return code is 1 if a figure is not what was asked.
+package `vda-5050-lib` on NODE_PATH. It takes about an hour and a half. Fleets of VDA 5050 are tests of
+`plugins/live/tests` with larger numbers, `vda5050_vehicles.py` and `vda5050_control.py`; those of Open-RMF are
+`rmf_scenarios.py` and `rmf_traffic.py`. The figures of times are those of this machine, which should have nothing else
+to do. The return code is 1 if a figure is not what was asked.
 """
 
 import argparse
@@ -23,7 +24,7 @@ import attrs
 ROOT = Path(__file__).parents[1]
 TESTS = ROOT / "plugins" / "live" / "tests"
 ORDERS, MESSAGES, KILLS, SWAPS = 50, 100_000, 20, 100
-LAG_MS = 50.0
+LAG_MS, AGE_MS, PAUSE_S, SHARE = 50.0, 200.0, 1.3, 0.97
 ROBOTS = ("10", "50", "100", "200", "500")
 
 
@@ -101,6 +102,32 @@ def published() -> Iterator[Figure]:
         yield Figure(f"scenario {name}", "all reached, no contact", found, done == pairs and contacts == 0)
 
 
+def vehicles() -> Iterator[Figure]:
+    """A thousand vehicles of VDA 5050 that all drive, and a hundred with lidar and `dwb`."""
+    for name, words in (("1,000 vehicles", ()), ("100 vehicles with lidar and dwb", ("--vehicles", "100", "--lidar"))):
+        said = script("vda5050_vehicles.py", *words).communicate()[0].strip()
+        found = [re.search(rf"{words} ([\d.]+)", said) for words in ("age p50 [^,]*, p99", "longest pause", "lag p99")]
+        gaps, contacts = re.search(r"(\d+) gaps", said), re.search(r"(\d+) contacts", said)
+        if gaps is None or contacts is None or None in found:
+            yield Figure(name, "a line", said or "no output", False)
+            continue
+        age, pause, lag = (float(it[1]) for it in found if it is not None)
+        holds = age < AGE_MS and lag < AGE_MS and pause < PAUSE_S and (gaps[1], contacts[1]) == ("0", "0")
+        asked = f"a state a second, no gap, age p99 and lag p99 < {AGE_MS:g} ms, no contact"
+        yield Figure(name, asked, said.partition(": ")[2], holds)
+
+
+def shares() -> Iterator[Figure]:
+    """Tasks of our fleet control over MQTT, as a share of those in one process, and the same for single plans."""
+    for what, words in (("tasks", ()), ("plans", ("--once",))):
+        for line in script("vda5050_control.py", *words).communicate()[0].splitlines():
+            robots, seed, *figures = line.split()
+            if seed == "all":
+                alone, over, share = figures
+                name = f"{what} of {robots} vehicles by our fleet control, pace 4"
+                yield Figure(name, f">= {SHARE:g}", f"{share}: {over} of {alone} an hour", float(share) >= SHARE)
+
+
 def traffic() -> Iterator[Figure]:
     """The table of fleets of Open-RMF."""
     running = script("rmf_traffic.py", "--robots", *ROBOTS, "--seconds", "60")
@@ -111,7 +138,7 @@ def traffic() -> Iterator[Figure]:
         if not cells or not cells[0].isdigit():
             print(line, end="", flush=True)
             continue
-        robots, planner, _, plan, sent, cpu, other, tasks, standstill, _, contacts, _, lag, behind, _ = cells
+        robots, planner, _, plan, _, sent, cpu, other, tasks, standstill, _, contacts, _, lag, behind, _ = cells
         found = (
             f"lag p99 {lag} and {behind} ms, plan p95 {plan} ms, {sent} messages/s, CPU {cpu} and {other}, "
             f"{tasks} tasks/h, {contacts} contacts, standstill {standstill} s"
@@ -131,7 +158,13 @@ FIGURES: dict[str, Callable[[], Iterator[Figure]]] = {
         "vehicles of vda5050-sdk under our fleet control", "they swap places", "vda5050/test_foreign_vehicle.py"
     ),
     "hostile": lambda: tested("broken messages", f"{MESSAGES:,} leave the vehicle at work", "vda5050/test_hostile.py"),
-    "broker": lambda: tested("broker killed", f"{KILLS} times, no contact", "vda5050/test_control.py killed"),
+    "broker": lambda: tested(
+        "broker killed, pace 1 and 5",
+        f"{KILLS} times, no contact, no wall",
+        "vda5050/test_control.py killed or unheard",
+    ),
+    "scale": vehicles,
+    "share": shares,
     "load": lambda: tested("load of transports", "the knee is found, for ours and another", "vda5050/test_load.py"),
     "scenarios": published,
     "swap": swaps,

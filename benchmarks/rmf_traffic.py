@@ -7,7 +7,8 @@ Each row is two runs in two processes that only share a DDS domain on this machi
 default `generated_warehouse` with cells of 1 m; robots are 0.7 by 0.5 m and drive 1.5 m/s. Each robot always has a
 destination: when it has come to one, it gets another one that is drawn from the free cells.
 
-Prints for each row the calls of the planner and the 95th percentile of their wall time; messages a second over the wire
+Prints for each row the calls of the planner and the 95th percentile of their wall time; the robots to which a plan was
+posted, since it changed for them, on average; messages a second over the wire
 (sent by both); the processors that each process uses; tasks an hour in the last two thirds of the run; the longest
 standstill of the whole fleet, and the robots that stood for a minute on the way to a destination; contacts and the
 least distance between robots, both of the simulator; the 99th percentile of the lag of both processes behind the clock;
@@ -107,11 +108,12 @@ class Clocks:
     def __init__(self) -> None:
         lags = self.lags = list[float]()
         wires = self._wires = list[Wire]()
+        posted = self._posted = list[str]()
         self.calls: list[float] = []
         self._asked_at = 0.0
         self._began: tuple[float, float, int] | None = None
 
-        change, connect = Pace.change, Wire.__init__
+        change, connect, publish = Pace.change, Wire.__init__, Wire.publish
 
         def watched_change(pace: Pace, now: float) -> str | None:
             lags.append(max(0.0, time.monotonic() - pace.due(now)))
@@ -121,7 +123,13 @@ class Clocks:
             connect(wire, *arguments)
             wires.append(wire)
 
+        def watched_publish(wire: Wire, topic: str, message: Any) -> None:
+            publish(wire, topic, message)
+            if topic.endswith("/plan"):
+                posted.append(topic)
+
         Pace.change, Wire.__init__ = watched_change, watched_connect  # type: ignore[method-assign]
+        Wire.publish = watched_publish  # type: ignore[method-assign]
 
     def announce(self, stage: Stage, facts: Any) -> None:
         """Time a call of the planner."""
@@ -153,6 +161,7 @@ class Clocks:
             "lag": float(np.percentile(self.lags, 99)),
             "lag_max": max(self.lags),
             "calls": len(self.calls),
+            "posted": len(self._posted) / max(1, len(self.calls)),
             "plan": float(np.percentile(self.calls, 95)) if self.calls else math.nan,
         }
 
@@ -282,9 +291,9 @@ def main() -> None:
     options = parser.parse_args()
     os.environ["CYCLONEDDS_URI"] = LOOPBACK
     print(
-        f"{'robots':>6} {'planner':12} {'plans':>6} {'p95 ms':>7} {'msg/s':>7} {'CPU robots':>10} {'traffic':>7} "
-        f"{'tasks/h':>8} {'standstill':>10} {'stuck':>5} {'contacts':>8} {'least m':>7} {'lag p99 ms':>10} "
-        f"{'traffic':>7} load"
+        f"{'robots':>6} {'planner':12} {'plans':>6} {'p95 ms':>7} {'posted':>6} {'msg/s':>7} {'CPU robots':>10} "
+        f"{'traffic':>7} {'tasks/h':>8} {'standstill':>10} {'stuck':>5} {'contacts':>8} {'least m':>7} "
+        f"{'lag p99 ms':>10} {'traffic':>7} load"
     )
     for planner in options.planners:
         for robots in options.robots:
@@ -294,10 +303,10 @@ def main() -> None:
             clearance = metrics.get("execution.min_clearance_m") or math.nan
             print(
                 f"{robots:6} {planner:12} {traffic['calls']:6} {1e3 * traffic['plan']:7.0f} "
-                f"{fleet['sent'] + traffic['sent']:7.0f} {fleet['cpu']:10.2f} {traffic['cpu']:7.2f} "
-                f"{fleet['tasks']:8.0f} {metrics.get('deadlock.longest_s') or 0:10.0f} {fleet['stuck']:5} "
-                f"{metrics.get('execution.robot_contacts')!s:>8} {clearance:7.2f} {1e3 * fleet['lag']:10.0f} "
-                f"{1e3 * traffic['lag']:7.0f} {os.getloadavg()[0]:.1f}",
+                f"{traffic['posted']:6.0f} {fleet['sent'] + traffic['sent']:7.0f} {fleet['cpu']:10.2f} "
+                f"{traffic['cpu']:7.2f} {fleet['tasks']:8.0f} {metrics.get('deadlock.longest_s') or 0:10.0f} "
+                f"{fleet['stuck']:5} {metrics.get('execution.robot_contacts')!s:>8} {clearance:7.2f} "
+                f"{1e3 * fleet['lag']:10.0f} {1e3 * traffic['lag']:7.0f} {os.getloadavg()[0]:.1f}",
                 flush=True,
             )
             for name, part in measured.items():

@@ -20,14 +20,15 @@ HEAD = """\
 `scripts/nav2_page.py` writes this page: it reads a file with each parameter. A component with the option `nav2` reads
 the parameters of its node as ROS 2 does: by the name of the node, in a namespace or under `/**`, nested or dotted, with
 merge keys. Plugins are found by the ids that the file lists (`controller_plugins`, `plugins`, …). Blocks that are not
-listed, or are `enabled: false`, are not judged.
+listed, or are `enabled: false`, are not judged, nor is what a file says of an option that the configuration sets.
 - *read*: it has the effect that it has in Nav2.
 - *not used*: Nav2 has it, and it has no effect here. The notes of a study list it once as "not used here".
 - *refused*: the file is refused with one line, as it is for a parameter that Nav2 does not have.
 
 If a file has several controllers of a kind with different values, the option `controller_id` chooses one; if its
-namespaces have different values, the option `namespace` does. `main` has the parameters of lyrical. Of older releases
-the names `controller_plugin_ids`, `controller_plugin_types`, `plugin_names`, `obstacle_range` and `raytrace_range` are
+namespaces have different values, the option `namespace` does. `main` has the parameters of lyrical, and
+`max_cost_threshold` of the rotation shim, which is not used. Of older releases the names `controller_plugin_ids`,
+`controller_plugin_types`, `plugin_names`, `obstacle_range`, `raytrace_range` and `max_allowed_time_to_collision` are
 read, too. Filters of costmaps (`keepout_filter`, `speed_filter`) are ignored, which a note says. Speeds and
 accelerations are lowered to the limits of the robot: choose a `fleet` whose robots are as fast as those of the file.
 """

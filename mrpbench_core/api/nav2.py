@@ -73,15 +73,21 @@ def resolve_options(options: Any, block: Nav2Block | None = None, of: type[Any] 
 def read_option(options: Any, name: str, block: Nav2Block | None, key: str | None = None) -> Any:
     """Return an option of an attrs instance as it is set, or else as a block has it, by `key` if it differs; or None.
 
+    What a block says of an option that is set is not judged.
+
     Raises:
         InputError: the value in the block has the wrong type, or the validator of the option refuses it.
     """
-    field = getattr(attrs.fields(type(options)), name)
-    value = None if block is None else block.take(key or name, _nav2_type(field.type))
-    if block is not None:
-        check_parameter(field, value, block, key or name)
     option = getattr(options, name)
-    return value if option is None else option
+    if block is None:
+        return option
+    if option is not None:
+        block.ignore(key or name)
+        return option
+    field = getattr(attrs.fields(type(options)), name)
+    value = block.take(key or name, _nav2_type(field.type))
+    check_parameter(field, value, block, key or name)
+    return value
 
 
 def _nav2_type(declared: Any) -> type:

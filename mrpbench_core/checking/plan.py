@@ -36,18 +36,19 @@ def check_plan(problem: Problem, plan: Plan, conflict_limit: int | None = None) 
     Args:
         problem: what was planned.
         plan: what to check.
-        conflict_limit: the number of conflicts to report, the earliest first; None = all.
+        conflict_limit: the number of conflicts to report, the earliest first; None = all, 0 = none are searched for.
     """
     known = (report for asked, made, report in _latest if asked is problem and made is plan)
-    report = next(known, None) or _report(problem, plan)
-    _latest[:] = [(problem, plan, report)]
+    report = next(known, None) or _report(problem, plan, conflict_limit != 0)
+    if conflict_limit != 0:
+        _latest[:] = [(problem, plan, report)]
     return attrs.evolve(report, conflicts=report.conflicts[:conflict_limit])
 
 
-def _report(problem: Problem, plan: Plan) -> PlanReport:
+def _report(problem: Problem, plan: Plan, searches: bool) -> PlanReport:
     if len(plan.paths) != len(problem):
         return PlanReport(faults=(f"{len(plan.paths)} paths for {len(problem)} robots",))
     faults = [f"robot {robot}: {fault}" for robot, fault in path_faults(problem, plan.paths).items()]
-    if faults:
+    if faults or not searches:
         return PlanReport(faults=tuple(faults))
     return PlanReport(conflicts=tuple(find_conflicts(problem, plan)))

@@ -14,6 +14,7 @@ from mrpbench_core.files.yaml import Document, Steps
 OF_EVERY_NODE = (
     *("use_sim_time", "qos_overrides", "bond_heartbeat_period", "introspection_mode", "service_introspection_mode"),
     *("action_server_result_timeout", "allow_parameter_qos_overrides", "use_intra_process_comms"),
+    "/bond_disable_heartbeat_timeout",
 )
 """Parameters of Nav2's nodes that have no effect here."""
 _BOOL = dict.fromkeys(("y", "Y", "yes", "Yes", "YES", "on", "On", "ON"), True) | dict.fromkeys(
@@ -147,7 +148,7 @@ class Nav2Block:
         if unknown:
             several = len(unknown) > 1
             names = ", ".join(repr(name) for name in unknown)
-            others = [*self._taken, *self._not_used, *known]
+            others = {*self._taken, *self._not_used, *known} - self._values.keys()
             hint = "remove them" if several else did_you_mean(unknown[0], others, "remove it: Nav2 does not have it")
             raise self.error(f"unknown parameter{'s' * several} {names}", unknown[0], hint=hint)
         for inner_name, inner in self._within.items():

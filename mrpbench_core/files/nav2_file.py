@@ -79,7 +79,10 @@ class Nav2File:
             flat = [entry for entry in self._entries if entry.path == names]
             names = (*names, name)
             if flat and not any(entry.path == names for entry in self._entries):
-                raise self.document.error(f"is of no node: the costmap is {'/'.join(names)!r}", flat[0].steps)
+                hint = f"put it below another {name!r}"
+                raise self.document.error(
+                    f"is of no node: the costmap is {'/'.join(names)!r}", flat[0].steps, hint=hint
+                )
         matching = [entry for entry in self._entries if entry.matches(*names)]
         block = Nav2Block(name, {}, self.document)
         for entry in matching:
@@ -121,7 +124,11 @@ def _entries(document: Document, data: Any, path: tuple[str, ...], steps: Steps)
     for key, value in data.items() if isinstance(data, dict) else ():
         here = (*steps, key)
         if key != PARAMETERS:
-            entries += _entries(document, value, (*path, *filter(None, key.split("/"))), here)
+            below = _entries(document, value, (*path, *filter(None, key.split("/"))), here)
+            if isinstance(value, dict) and PARAMETERS in data and not below:
+                hint = f"indent it so that it is in {PARAMETERS!r}"
+                raise document.error(f"{key} is beside {PARAMETERS!r}, so it is of no node", here, key=True, hint=hint)
+            entries += below
         elif path and isinstance(value, dict | None):
             entries.append(_Entry(path, value or {}, here))
         else:

@@ -221,7 +221,7 @@ class _DocumentReader:
 
     def _duplicate(self, frame: _Frame, event: Any) -> InputError:
         first = frame.place.inside[event.value].key
-        hint = None if first is None else f"first in line {first.line}"
+        hint = None if first is None else f"first in line {first.line}; keep one of them"
         return self._error(f"duplicate key {event.value!r}", event.start_mark, hint)
 
     def _merge(self, frame: _Frame) -> None:

@@ -66,8 +66,10 @@ class Promises:
         return cls(**{**message, "made": frozenset(map(Promise, message["made"]))})
 
 
-def judge_plan(promises: Promises, problem: Problem, result: PlanResult) -> tuple[PlanResult, str | None]:
-    """Count the plan's conflicts, and say which promise it breaks, or None.
+def judge_plan(
+    promises: Promises, problem: Problem, result: PlanResult, counts: bool = True
+) -> tuple[PlanResult, str | None]:
+    """Say which promise a plan breaks, or None; with `counts`, count its conflicts in any case.
 
     Every planner must return valid paths, and one that assigns must give each robot a task of its own. Freedom from
     conflicts, bounds and optimality are required of planners that promise them.
@@ -76,20 +78,20 @@ def judge_plan(promises: Promises, problem: Problem, result: PlanResult) -> tupl
         return PlanResult(status=PlanStatus.GAVE_UP), fault
     if result.plan is None:
         return result, None if result.status != PlanStatus.SOLVED else "has the status solved but returns no plan"
-    report = check_plan(promises.asked(problem), result.plan)
+    searches = counts or Promise.CONFLICT_FREE in promises.made
+    report = check_plan(promises.asked(problem), result.plan, None if searches else 0)
     if report.faults:
         return result, report.faults[0]
     if promises.assigns and (shared := check_choice(problem, result.plan)):
         return result, shared[0]
     if result.status == PlanStatus.TIMEOUT:  # but not without a plan: a success that depends on the clock
         result = attrs.evolve(result, status=PlanStatus.SOLVED, clock_bound=True)
-    statistics = {**result.statistics, "conflicts": float(len(report.conflicts))}
-    result = attrs.evolve(result, statistics=statistics)
+    if searches:
+        result = attrs.evolve(result, statistics={**result.statistics, "conflicts": float(len(report.conflicts))})
     if report.conflicts and Promise.CONFLICT_FREE in promises.made:
         return result, str(report.conflicts[0])
     if result.plan is not None and not math.isnan(result.lower_bound):
-        factor = promises.factor
-        held = {Promise.BOUNDED, Promise.OPTIMAL} & promises.made
+        held, factor = {Promise.BOUNDED, Promise.OPTIMAL} & promises.made, promises.factor
         cost = result.plan.sum_of_costs
         if held and not result.clock_bound and cost > factor * result.lower_bound + 1e-6:
             return result, f"cost {cost} exceeds {factor:g} times its lower bound {result.lower_bound:g}"

@@ -21,7 +21,7 @@ bool near(double a, double b, double slack = 1e-4) {
 Batch batch(float length) {
   Batch it;
   it.dt = 0.1f;
-  for (Table* table : {&it.vx, &it.wz, &it.x, &it.y, &it.yaw}) table->resize(kSteps, kSamples);
+  it.resize(kSteps, kSamples);
   it.path.length = length;
   return it;
 }
@@ -40,7 +40,9 @@ void add_point(LocalPath& path, float x, float y = 0, float yaw = 0, bool free =
 std::vector<float> totals(const std::string& critic, const Batch& batch, const OptionValues& options = {}) {
   const WeightedCritic it = critic_kind(critic).make(options);
   std::vector<float> raw(kSamples, 0.0f), total(kSamples, 0.0f);
+  it.critic->begin(batch);
   it.critic->score(batch, raw);
+  it.critic->finish(raw);
   it.add(raw, total);
   return total;
 }
@@ -174,7 +176,9 @@ TEST("CostCritic sums the costs under every second pose, and drops samples that 
   CHECK(near(some[0], 3.81e6 / 254 / 15, 1) && near(some[1], 3.81 * expected / 254 / 15));
   fill(it.x, 1.0f);
   std::vector<float> raw(kSamples, 0.0f);
-  CHECK(!critic_kind("CostCritic").make({}).critic->score(it, raw));
+  const WeightedCritic cost = critic_kind("CostCritic").make({});
+  cost.critic->begin(it);
+  CHECK(!cost.critic->score(it, raw));
 }
 
 TEST("the furthest point is the one where samples come") {
@@ -183,10 +187,10 @@ TEST("the furthest point is the one where samples come") {
   it.path.spacing = 0.2f;
   std::fill_n(it.x[kSteps - 1], kSamples, 1.0f);
   it.length.assign(kSamples, 3.0f);
-  it.find_furthest();
+  it.furthest = it.find_furthest();
   CHECK(it.furthest == 5 && it.beyond_furthest(2) == 7 && it.beyond_furthest(9) == 9);
   it.length.assign(kSamples, 0.3f);  // samples do not reach farther than their length
-  it.find_furthest();
+  it.furthest = it.find_furthest();
   CHECK(it.furthest == 2);
 }
 
@@ -194,13 +198,13 @@ TEST("sampled controls are the plan and noise, and velocities follow them within
   const Change change{3 * 0.05f, 3 * 0.05f, 3.5f * 0.05f};
   const auto sampled = [&](float noise, float start_vx) {
     Noise its;
-    for (Table* it : {&its.vx, &its.wz}) it->resize(3, 1);
+    for (auto* it : {&its.vx, &its.wz}) it->resize(3, 1);
     its.first = 1;
-    its.vx[1][0] = noise;  // of step 0
+    its.vx[1][0] = static_cast<std::int16_t>(noise * 4096);  // of step 0
     Tables out;
     out.resize(3, 1);
     const std::vector<float> vx{0, 0, 0.2f}, wz{0.1f, 0, 0.3f};
-    roll_out({its, vx, wz, {}, {}, start_vx, 6, change, 0.05f}, out);
+    roll_out({its, 1, 1, vx, wz, {}, {}, start_vx, 6, change, 0.05f}, out);
     return out;
   };
   const Tables slower = sampled(0.75f, 5), faster = sampled(-0.75f, -5);
@@ -211,12 +215,12 @@ TEST("sampled controls are the plan and noise, and velocities follow them within
 
 TEST("samples of a late drive begin with the commands on their way, and follow the controls after these") {
   Noise none;
-  for (Table* it : {&none.vx, &none.wz}) it->resize(8, 1);
+  for (auto* it : {&none.vx, &none.wz}) it->resize(8, 1);
   const std::vector<float> zero(8, 0.0f), vx{1, 2, 3, 4, 5, 6, 7, 8};
   const auto rolled = [&](std::span<const float> controls, std::vector<float> sent_vx, std::vector<float> sent_wz) {
     Tables out;
     out.resize(8, 1);
-    roll_out({none, controls, zero, sent_vx, sent_wz, 0, 0, {1000, 1000, 1000}, 0.05f}, out);
+    roll_out({none, 1, 1, controls, zero, sent_vx, sent_wz, 0, 0, {1000, 1000, 1000}, 0.05f}, out);
     return out;
   };
   const Tables late = rolled(zero, {9}, {7, 4}), soon = rolled(vx, {}, {});  // as in Nav2: 0.10 s and 0.15 s
@@ -242,12 +246,93 @@ TEST("a plan keeps speeds and accelerations, the first step within a control per
 
 TEST("samples roll out as by Euler's method with the yaw before each step") {
   Noise none;
-  for (Table* it : {&none.vx, &none.wz}) it->resize(50, 1);
+  for (auto* it : {&none.vx, &none.wz}) it->resize(50, 1);
   Tables out;
   out.resize(50, 1);
   const std::vector<float> vx(50, 0.1f), wz(50, 0.2f);
-  roll_out({none, vx, wz, {}, {}, 0, 0, {1, 1, 1}, 0.1f}, out);
+  roll_out({none, 1, 1, vx, wz, {}, {}, 0, 0, {1, 1, 1}, 0.1f}, out);
   CHECK(near(out.x[49][0], 0.41745, 1e-5) && near(out.y[49][0], 0.21733, 1e-5) && near(out.yaw[49][0], 0.98));
+}
+
+TEST("headings are those of sines and cosines, whether samples turn slowly or fast") {
+  constexpr float dt = 0.05f;
+  Noise none;
+  for (auto* it : {&none.vx, &none.wz}) it->resize(56, 1);
+  for (const float rate : {0.3f, 3.9f, 4.1f, 60.0f}) {
+    Tables out;
+    out.resize(56, 1);
+    const std::vector<float> vx(56, 0.5f), wz(56, rate);
+    roll_out({none, 0, 0, vx, wz, {}, {}, 0.5f, rate, {1, 1, 1}, dt}, out);
+    double x = 0, y = 0, yaw = 0;
+    for (std::size_t t = 0; t < 56; ++t) {
+      x += 0.5 * dt * std::cos(yaw);
+      y += 0.5 * dt * std::sin(yaw);
+      yaw += rate * dt;
+      CHECK(near(out.x[t][0], x, 2e-6) && near(out.y[t][0], y, 2e-6) && near(out.yaw[t][0], yaw, 1e-4));
+    }
+    CHECK(out.end_yaw[0] == out.yaw[55][0]);
+  }
+}
+
+TEST("noise is normal, and that of one key does not depend on the other") {
+  const auto drawn = [](std::uint64_t key) {
+    Noise it;
+    for (auto* rows : {&it.vx, &it.wz}) rows->resize(200, 250);
+    mrpbench::sim::Draws draws(key, 0, 0);
+    it.draw(draws);
+    return it;
+  };
+  const Noise one = drawn(1), same = drawn(1), other = drawn(2);
+  double mean = 0, variance = 0, both = 0, within = 0, beyond = 0, equal = 0;
+  constexpr double count = 200 * 250;
+  for (std::size_t t = 0; t < 200; ++t) {
+    for (std::size_t k = 0; k < 250; ++k) {
+      const double vx = one.vx[t][k] * Noise::kUnit, wz = one.wz[t][k] * Noise::kUnit;
+      mean += vx / count;
+      variance += vx * vx / count;
+      both += vx * wz / count;
+      within += (std::abs(vx) < 1) / count;
+      beyond += (std::abs(vx) > 3) / count;
+      equal += (one.vx[t][k] == other.vx[t][k]) / count;
+      CHECK(one.vx[t][k] == same.vx[t][k] && one.wz[t][k] == same.wz[t][k]);
+    }
+  }
+  CHECK(near(mean, 0, 0.02) && near(variance, 1, 0.03) && near(both, 0, 0.02) && equal < 0.01);
+  CHECK(near(within, 0.6827, 0.01) && near(beyond, 0.0027, 0.001));
+}
+
+TEST("plans move by weighted deviations, of noise and of velocities alike") {
+  constexpr std::size_t count = 40;
+  std::vector<float> weights(2 * kBlock, 0.0f);
+  Noise noise;
+  noise.vx.resize(2, count);
+  Table velocities;
+  velocities.resize(2, count);
+  double expected[2]{};
+  for (std::size_t k = 0; k < count; ++k) weights[k] = 0.01f * static_cast<float>(k + 1);
+  for (std::size_t t = 0; t < 2; ++t) {
+    for (std::size_t k = 0; k < count; ++k) {
+      noise.vx[t][k] = static_cast<std::int16_t>(37 * k * (t + 1)) - 900;
+      velocities[t][k] = 0.25f * noise.vx[t][k] + 0.5f;
+      expected[t] += static_cast<double>(weights[k]) * 0.25 * noise.vx[t][k];
+    }
+  }
+  CHECK(near(sum(weights), 0.01 * count * (count + 1) / 2));
+  const std::vector<Deviations<std::int16_t>> drawn{{noise.vx[0], 0.25f, 0}, {noise.vx[1], 0.25f, 0}};
+  const std::vector<Deviations<float>> followed{{velocities[0], 1, 0.5f}, {velocities[1], 1, 0.5f}};
+  std::vector<float> one(2, 1.0f), other(2, 1.0f), cost(count, 0.0f), same(count, 0.0f);
+  const std::span<const float> its(weights.data(), velocities.width());
+  add_weighted(its, NoiseRows(drawn), one);
+  add_weighted(its, VelocityRows(followed), other);
+  const std::vector<float> per{2, -1};
+  add_deviations(NoiseRows(drawn), per, cost);
+  add_deviations(VelocityRows(followed), per, same);
+  for (std::size_t t = 0; t < 2; ++t) {
+    CHECK(near(one[t], 1 + expected[t], 0.05) && near(other[t], 1 + expected[t], 0.05));
+  }
+  for (std::size_t k = 0; k < count; ++k) {
+    CHECK(near(cost[k], 0.25 * (2 * noise.vx[0][k] - noise.vx[1][k]), 1e-3) && near(same[k], cost[k], 1e-3));
+  }
 }
 
 TEST("smoothing keeps constants, and spreads an impulse by the coefficients of Savitzky and Golay") {

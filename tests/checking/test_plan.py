@@ -132,6 +132,8 @@ def test_conflicts_are_looked_for_only_between_sound_paths_and_up_to_a_limit(mak
     crowd = Plan(paths=(make.path(lane, (0, 1, 1)), make.path(lane, (0, 1, 1)), make.path(lane)))
     assert len(check_plan(asked, crowd).conflicts) == 3  # at the start, on the edge, at its end
     assert len(check_plan(asked, crowd, conflict_limit=1).conflicts) == 1
+    assert not check_plan(asked, crowd, conflict_limit=0).conflicts
+    assert len(check_plan(asked, crowd).conflicts) == 3  # what was not searched for is not remembered
     unsound = Plan(paths=(*crowd.paths[:2], make.path(lane, (0, 1, 1))))
     assert not check_plan(asked, unsound).conflicts
 

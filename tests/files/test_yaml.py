@@ -80,7 +80,7 @@ def test_keys_are_text_as_written():
         ("a: !!python/object/apply:os.system [x]", (1, 4), "tags"),
         ("a: !!str 1", (1, 4), "tags"),
         ("- !mine {}", (1, 3), "tags"),
-        ("a: 1\nb: 2\na: 3", (3, 1), "duplicate key 'a' .first in line 1"),
+        ("a: 1\nb: 2\na: 3", (3, 1), "duplicate key 'a' .first in line 1; keep one of them"),
         ("b: {a: 1, 'a': 2}", (1, 11), "duplicate key"),
         ("a: &a {b: 1}\nc: {<<: *a}", (2, 5), "merge keys"),
         ("&a [*a]", (1, 5), "contains itself"),

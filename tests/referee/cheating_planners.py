@@ -76,7 +76,7 @@ class Planning:
         return all_at_once(result)
 
     def judge_plan(problem, result):
-        replace("judge_plan", lambda promises, problem, result: (result, None))
+        replace("judge_plan", lambda promises, problem, result, **_: (result, None))
         return standing(problem, result)
 
     def result_fault(problem, result):

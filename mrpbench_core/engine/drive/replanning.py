@@ -38,7 +38,7 @@ def replanner_of(inputs: RunInputs, context: RunContext, router: Router) -> Repl
         calls.append(spent["planning_s"])
         timing.update(call_timing(calls, limit))
         timing["clock_bound"] = timing.get("clock_bound", False) or spent["clock_bound"]
-        result, fault = judge_plan(promises, problem, result)
+        result, fault = judge_plan(promises, problem, result, counts=False)
         late = max(0.0, calls[-1] - limit)
         return result, fault or (f"the planner ended with {result.status}" if result.plan is None else None), late
 

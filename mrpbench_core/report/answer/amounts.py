@@ -15,6 +15,11 @@ _DIGITS = 3
 """Significant digits of a number without interval."""
 
 
+def units(ranking: Ranking, count: int) -> str:
+    """Return a number of units of a ranking: `1 run`, `12 scenarios`."""
+    return f"{count} {ranking.unit if count != 1 else ranking.unit.removesuffix('s')}"
+
+
 def quantity(ranking: Ranking, estimate: IntervalEstimate) -> str:
     """Write a mean: `3.2 s [1.1, 5.3]`."""
     return _written(ranking, estimate)
@@ -51,7 +56,7 @@ def largest(ranking: Ranking, places: Sequence[Place]) -> str | None:
 def reading(ranking: Ranking) -> str:
     """Say over what the means are, which way is better, and which differences do not matter."""
     column, estimates = ranking.column, [place.estimate for place in ranking.places if place.estimate is not None]
-    sentence = f"{'Share' if ranking.is_rate else 'Mean'} over {ranking.ranked} {ranking.unit}"
+    sentence = f"{'Share' if ranking.is_rate else 'Mean'} over {units(ranking, ranking.ranked)}"
     sentence += " [95 % interval]." if any(estimate.has_interval for estimate in estimates) else "."
     sentence += {1: " More is better.", -1: " Less is better."}.get(direction(column), "")
     if column.threshold is None:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from mrpbench_core.report.answer.amounts import change, largest, quantity, span
+from mrpbench_core.report.answer.amounts import change, largest, quantity, span, units
 from mrpbench_core.report.answer.ranking import Compared, Place, Ranking
 from mrpbench_core.report.estimation.effects import Effect
 from mrpbench_core.report.estimation.relation import Relation, relation, turned
@@ -20,7 +20,7 @@ def sentences(ranking: Ranking) -> list[str]:
     if first.estimate is None:
         return ["No run has a value."]
     if not others:
-        lines = [f"{quantity(ranking, first.estimate)} over {_units(ranking, first.estimate.n)}."]
+        lines = [f"{quantity(ranking, first.estimate)} over {units(ranking, first.estimate.n)}."]
         return [*lines, f"Failed runs: {first.failures}."] if first.failures else lines
     lines = _first(ranking, first, [place for place in others if place.estimate is not None])
     lines += _of_two(ranking, *others) if len(others) == 1 else []
@@ -30,9 +30,9 @@ def sentences(ranking: Ranking) -> list[str]:
         lines.append(f"{len(apart) - NAMED} more differ.")
     if without := [place.name for place in others if place.estimate is None]:
         lines.append(f"{listed(without)} {'has' if len(without) == 1 else 'have'} no value.")
-    too_few = _too_few(ranking)
-    if too_few and not (lines[0].startswith(too_few) or all(place.relation is Relation.IDENTICAL for place in others)):
-        lines.append(f"{too_few} for {'a test' if ranking.is_rate else 'intervals and tests'}.")
+    few = too_few(ranking)
+    if few and not (lines[0].startswith(few) or all(place.relation is Relation.IDENTICAL for place in others)):
+        lines.append(f"{few} for {'a test' if ranking.is_rate else 'intervals and tests'}.")
     return lines
 
 
@@ -78,13 +78,13 @@ def _first(ranking: Ranking, first: Place, others: Sequence[Place]) -> list[str]
     assert first.estimate is not None
     all_of_them = listed(everyone) if len(everyone) <= NAMED else f"All {len(everyone)}"
     if others and all(place.relation is Relation.IDENTICAL for place in others):
-        each = f"{'each of ' * (ranking.ranked > 1)}{_units(ranking, ranking.ranked)}"
+        each = f"{'each of ' * (ranking.ranked > 1)}{units(ranking, ranking.ranked)}"
         return [f"{all_of_them} are identical in {each}: {quantity(ranking, first.estimate)}."]
     if others and len(alike) == len(others):
         return [f"{all_of_them} differ too little to matter: {span(ranking)}."]
     if others and all(place.relation is Relation.OPEN for place in others):
-        if too_few := _too_few(ranking):
-            return [f"{too_few} to compare {listed(everyone)}: {span(ranking)}."]
+        if few := too_few(ranking):
+            return [f"{few} to compare {listed(everyone)}: {span(ranking)}."]
         possible = largest(ranking, unknown)
         more = [f"The difference may be up to {possible}."] if possible else []
         return [f"There is no clear difference between {listed(everyone)}: {span(ranking)}.", *more]
@@ -127,12 +127,8 @@ def _apart(ranking: Ranking, place: Place) -> str:
     )
 
 
-def _too_few(ranking: Ranking) -> str:
+def too_few(ranking: Ranking) -> str:
     """Return the words that there are too few units for a comparison; none if there are enough."""
     if ranking.ranked >= LEAST:
         return ""
-    return f"{_units(ranking, ranking.ranked)} {'is' if ranking.ranked == 1 else 'are'} too few"
-
-
-def _units(ranking: Ranking, count: int) -> str:
-    return f"{count} {ranking.unit if count != 1 else ranking.unit.removesuffix('s')}"
+    return f"{units(ranking, ranking.ranked)} {'is' if ranking.ranked == 1 else 'are'} too few"

@@ -4,6 +4,7 @@ from html import escape
 
 from mrpbench_core.report.answer.amounts import change, quantity, scale
 from mrpbench_core.report.answer.ranking import Place, Ranking
+from mrpbench_core.report.answer.wording import too_few
 from mrpbench_core.report.estimation.relation import Relation
 from mrpbench_core.report.html.charts import STYLES, mark
 from mrpbench_core.report.html.scales import Scale, spread, tick_text
@@ -66,6 +67,8 @@ def _row(ranking: Ranking, place: Place, factor: float, axis: Scale, band: tuple
     if place.relation is None and 1 < len(equal) == len(ranking.places):
         kind, tag = "same", "identical" if ranking.having(Relation.IDENTICAL) else "same mean"
     value = quantity(ranking, place.estimate) if place.estimate else "no value"
+    if place.relation is Relation.OPEN and too_few(ranking):
+        tag = "too few to compare"
     if place.fails_more:
         kind, tag = f"{kind} late", f"{tag}; fails more often".removeprefix("; ")
         value += f" n={place.estimate.n}" if place.estimate else ""

@@ -39,6 +39,7 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
     """Build the table of the statuses of each group."""
     axes = axes_of(settings)
     rows: list[tuple[Cell, ...]] = []
+    unit = tuple({_unit(settings)} - {"runs"})
     planned = ("plans found",) if np.isfinite(runs.values["planned"]).any() else ()
     for setting, group, entry in _groups(settings, numbers):
         statuses = group.statuses(runs)
@@ -50,7 +51,7 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
             (
                 *_axes_cells(group, axes),
                 len(group.members),
-                len(np.unique(setting.units[group.counted])),
+                *(len(np.unique(setting.units[group.counted])) for _ in unit),
                 f"{statuses[RunStatus.SUCCEEDED]}/{len(group.counted)}",
                 _rate(entry.overall["succeeded"]) or "n/a",
                 *(_rate(entry.overall["planned"]) for _ in planned),
@@ -58,11 +59,10 @@ def outcome_table(runs: Runs, settings: Sequence[Setting], numbers: Sequence[Seq
                 ", ".join(left_out) or None,
             )
         )
-    unit = _unit(settings)
     return Table(
         key="outcome",
         title="How the runs ended" + _reassigned(runs),
-        headings=(*axes, "runs", unit, "succeeded", "success rate", *planned, "else", "left out"),
+        headings=(*axes, "runs", *unit, "succeeded", "success rate", *planned, "else", "left out"),
         rows=tuple(rows),
         keys=len(axes),
         note=(

@@ -15,8 +15,11 @@ class Draws {
   Draws(std::uint64_t seed, std::uint64_t robot, std::uint64_t period)
       : state_(mix(mix(mix(seed) + kStep * (robot + 1)) + kStep * (period + 1))) {}
 
+  /// Independent bits, each 0 or 1 with equal probability.
+  std::uint64_t bits() { return mix(state_ += kStep); }
+
   /// Uniform in [0, 1).
-  double uniform() { return static_cast<double>(mix(state_ += kStep) >> 11) * 0x1p-53; }
+  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
   /// Two independent standard normal numbers (G. E. P. Box and M. E. Muller, Ann. Math. Statist. 29, 1958).
   std::pair<double, double> normal() {

@@ -146,8 +146,9 @@ class Bench:
         note = lambda kind, detail: self.events.append((kind, detail))  # noqa: E731
         self.vehicle = Vehicle(track, self.names, Battery(), 2.0, note)
         self.vehicle.last_node = "dock"
-        self.instant = InstantActions(self.vehicle, track, self.names, note)
         self._faults = {topic: validator(version, topic) for topic in ("order", "instantActions", "state")}
+        zones = validator(version, "zoneSet") if self.names.zones else None
+        self.instant = InstantActions(self.vehicle, track, self.names, note, zones)
         self.now, self._headers = 0.0, 0
         self.step()
 
@@ -207,6 +208,7 @@ class Bench:
         """Let time pass; return the state, which is always valid."""
         self.now += seconds
         here = (self.x if x is None else x, 0.0, 0.0)
+        self.instant.advance()
         self.vehicle.advance(Here(now=self.now, pose=here, level=0, driving=driving, gave_up=gave_up))
         return self.state()
 

@@ -1,5 +1,7 @@
 """The recording and the record of an execution, for each kind of end."""
 
+import re
+
 import numpy as np
 import pytest
 
@@ -80,6 +82,29 @@ class Flat(Kinematic):
         return super().open(world, fleet, placements, seed, period, movers)
 """
 
+CLAIMING = """
+import attrs
+import numpy as np
+from mrpbench_core.api.navigator import Navigator, NavigatorSession
+from mrpbench_core.model.execution.motion import Mode, Motion
+
+
+@attrs.frozen(kw_only=True)
+class Claiming(Navigator):
+    def start(self, fleet, world, routes, controller, period, seed):
+        return Standing()
+
+
+class Standing(NavigatorSession):
+    def adopt(self, routes, cut):
+        raise AssertionError
+
+    def step(self, now, observation, orders):
+        done, count = orders.released, len(orders.released)
+        mode = np.full(count, Mode.WAITING, "u1")
+        return Motion(twist=np.zeros((count, 2)), reached=done, cleared=done, mode=mode)
+"""
+
 
 def executed(tmp_path, **changes):
     (point,) = load_study({**RUN, **changes}).runs
@@ -104,6 +129,29 @@ def test_the_error_of_an_aborted_run_names_robots_that_gave_up_and_the_cause(tmp
     assert record["error"]["message"].startswith(
         "a robot gave up before all had arrived: robot_0: no_progress; robot_1"
     )
+
+
+def test_a_robot_that_is_said_to_have_arrived_and_has_not_is_named_with_its_distance(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "claiming.py").write_text(CLAIMING)
+    record = executed(tmp_path, scenario={"plugin": "random", "robots": 1}, navigator="./claiming.py:Claiming")
+    assert record["status"] == "goals_missed"
+    says = r"the navigator reports that robot 0 arrived, but robot 0 is \d+\.\d\d m from its goal"
+    assert re.fullmatch(says, record["error"]["message"])
+
+
+@pytest.mark.parametrize(
+    ("limit", "status", "message"),
+    [
+        ("1 s", "goals_missed", "not all robots arrived within 1 simulated seconds: robot_0 stopped for good"),
+        ("1.05 s", "execution_aborted", "not all robots can arrive: robot_0 stopped for good at 1.0 s"),
+    ],
+)
+def test_a_run_that_a_fault_ends_is_aborted_unless_its_time_is_over(tmp_path, limit, status, message):
+    faults = {"events": [{"kind": "stop", "robot": 0, "at": "1 s"}]}
+    record = executed(tmp_path, scenario={"plugin": "random", "robots": 1}, faults=faults, limits={"execution": limit})
+    assert record["status"] == status
+    assert record["error"]["message"].startswith(message)
 
 
 @pytest.mark.parametrize("floor", [1, 2])

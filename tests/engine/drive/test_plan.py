@@ -78,6 +78,13 @@ def test_conflicts_are_counted_for_a_planner_that_promises_nothing(run_context):
     assert result.statistics["conflicts"] == 1
 
 
+def test_conflicts_are_searched_for_without_a_count_only_where_they_break_a_promise(run_context):
+    result = PlanResult(status=PlanStatus.SOLVED, plan=COLLIDING)
+    free = judge_plan(Promises.of(Fixed(result=result)), run_context.problem, result, counts=False)
+    assert free == (result, None)
+    assert judge_plan(Promises.of(Careful(result=result)), run_context.problem, result, counts=False)[1] is not None
+
+
 def test_conflicts_break_the_promise_of_a_planner_that_makes_it(run_context):
     _, fault = judged(Careful, run_context.problem, PlanResult(status=PlanStatus.SOLVED, plan=COLLIDING))
     assert fault is not None

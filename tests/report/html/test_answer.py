@@ -51,8 +51,15 @@ def test_configurations_with_the_same_mean_share_a_place(results, record, tmp_pa
     assert re.findall(r'class="tag"[^>]*>(\w+)', text.split("How long does planning take?")[1])[:3] == [
         "best",
         "identical",
-        "no",
+        "too",
     ]
+
+
+def test_one_run_of_each_is_called_too_few_in_the_picture_too(results, record, tmp_path):
+    text = written_page(make_report([results([record("a", 0, took=1.0), record("b", 0, took=9.0)])]), tmp_path)
+    card = text.split("How long does planning take?")[1].split("</article>")[0]
+    assert re.findall(r'class="tag"[^>]*>([^<]*)', card) == ["best mean", "too few to compare"]
+    assert "Mean over 1 run." in card
 
 
 def test_a_ranking_of_many_draws_some_and_counts_the_rest(results, record, tmp_path):

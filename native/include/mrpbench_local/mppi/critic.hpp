@@ -13,8 +13,15 @@ namespace mrpbench::local::mppi {
 class Critic {
  public:
   virtual ~Critic() = default;
-  /// Raw scores of the samples, which come as zeros. Returns false if every sample collides.
+  /// Called in each period before the first block.
+  virtual void begin(const Batch&) {}
+  /// Raw scores of the samples of a block, which come as zeros. Returns false if all of them collide.
   virtual bool score(const Batch& batch, std::span<float> raw) = 0;
+  /// Tell whether scores depend on `furthest`, which is known when all blocks are rolled out. Such a critic sees only
+  /// the ways of samples; others come before, and see motions, too.
+  virtual bool looks_at_furthest() const { return false; }
+  /// Called with the raw scores of all blocks.
+  virtual void finish(std::span<float>) {}
 };
 
 /// A critic and how its scores count: (weight * raw) ^ power.

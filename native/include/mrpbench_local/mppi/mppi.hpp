@@ -26,9 +26,6 @@ struct MppiOptions {
   static Description<MppiOptions> derived();
 };
 
-/// Twists f8[m,p,2] and poses f8[m,p,3] of every so many samples and steps.
-Samples trajectories(const mppi::Batch& batch, std::size_t every, std::size_t step);
-
 class Mppi : public Controller {
  public:
   Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key, std::vector<mppi::WeightedCritic> critics);
@@ -49,10 +46,21 @@ class Mppi : public Controller {
   void reset();
   void prepare(const Situation& now);
   void sample(mppi::Batch& batch) const;
-  std::pair<mppi::Controls, mppi::Controls> controls(std::size_t t) const;
+  /// Call `visit()` when a batch is that of a block, for each block.
+  template <class Visit>
+  void each_block(mppi::Batch& batch, Visit&& visit) const {
+    const std::size_t samples = total_.size();
+    for (std::size_t first = 0; first < samples; first += mppi::kBlock) {
+      const mppi::Lent lent(batch, first / mppi::kBlock, plan_vx_.size(), std::min(mppi::kBlock, samples - first));
+      visit();
+    }
+  }
+  template <class Visit>
+  void each_deviation(Visit&& visit);
   bool improve(const Extra& extra);
   void begin_plan();
-  bool score(const Extra& extra);
+  void score(bool by_furthest);
+  bool add_scores(const Extra& extra);
   /// Call `visit(pose)` at the end of each of the first steps of the plan, until it returns false.
   template <class Visit>
   bool walk(std::size_t steps, Visit&& visit) const {
@@ -76,8 +84,9 @@ class Mppi : public Controller {
   std::uint64_t drawn_ = 0;
   Twist start_, last_;
   mppi::Batch batch_;
-  mppi::Noise noise_;
+  std::vector<mppi::Noise> noise_;  // of each block
   std::vector<float> plan_vx_, plan_wz_, total_, raw_, weight_, added_;
+  std::vector<char> free_;  // critics for which a sample does not collide
   /// The plan around which samples were drawn last.
   std::vector<float> centre_vx_, centre_wz_;
   std::array<float, 4> past_vx_{}, past_wz_{};

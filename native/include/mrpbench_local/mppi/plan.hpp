@@ -2,30 +2,32 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
-#include <utility>
 
 #include "mrpbench_local/mppi/batch.hpp"
 
 namespace mrpbench::local::mppi {
 
-/// The speeds, or turn rates, that samples want in one step: `base` + row[k] each.
-struct Controls {
-  float base = 0;
-  const float* row = nullptr;
-
-  float operator[](std::size_t k) const { return base + row[k]; }
+/// How far the controls of samples are from a plan in one step, on one axis: unit * row[k] - plan each. The rows are
+/// noise, or velocities.
+template <class T>
+struct Deviations {
+  const T* row = nullptr;
+  float unit = 1, plan = 0;
 };
+using NoiseRows = std::span<const Deviations<std::int16_t>>;
+using VelocityRows = std::span<const Deviations<float>>;
 
-/// The sum over samples, of values or of weight * value.
-float sum(const float* values, std::size_t count);
-float weighted_sum(const float* weights, const float* values, std::size_t count);
-/// The sums of weight * control, of speeds and turn rates.
-std::pair<float, float> weighted_sums(const float* weights, Controls vx, Controls wz, std::size_t count);
+/// The sum of weights, of which the last ones are 0 so that their number is a multiple of `kBlock`.
+float sum(std::span<const float> weights);
+/// Add to a plan, step by step, the sum over samples of weight * deviation.
+void add_weighted(std::span<const float> weights, NoiseRows steps, std::span<float> plan);
+void add_weighted(std::span<const float> weights, VelocityRows steps, std::span<float> plan);
 
-/// Add what the differences between controls and a plan cost: `per_vx` and `per_wz` each.
-void add_deviation(Controls vx, Controls wz, float plan_vx, float plan_wz, float per_vx, float per_wz,
-                   std::span<float> total);
+/// Add what the deviations of samples cost: `per[t]` each in step t.
+void add_deviations(NoiseRows steps, std::span<const float> per, std::span<float> total);
+void add_deviations(VelocityRows steps, std::span<const float> per, std::span<float> total);
 
 /// Nine points Savitzky-Golay filter of second order, or the mean of nine points (order 1). Before `values` come the
 /// four of `past`, after them the last one repeated; the last stays. Fewer than 21 values stay as they are.

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "mrpbench_local/mppi/batch.hpp"
+#include "mrpbench_local/mppi/noise.hpp"
 
 namespace mrpbench::local::mppi {
 
@@ -12,20 +12,13 @@ struct Change {
   float speed_up = 0, slow_down = 0, turn = 0;
 };
 
-/// Noise of all steps and samples. Step t takes the row t + `first`, in a circle.
-struct Noise {
-  Table vx, wz;
-  std::size_t first = 0;
-
-  const float* vx_of(std::size_t t) const { return vx[(t + first) % vx.steps]; }
-  const float* wz_of(std::size_t t) const { return wz[(t + first) % wz.steps]; }
-};
-
-/// What samples follow from: controls are `vx`, `wz` of each step plus noise; velocities begin at the start and follow
-/// the controls of the step before within `change`. Where the drive is late, they have the velocities `sent_vx`,
-/// `sent_wz` of commands on their way in the next steps, and follow the controls after these, from the start.
+/// What samples follow from: controls are `vx`, `wz` of each step plus noise of these standard deviations; velocities
+/// begin at the start and follow the controls of the step before within `change`. Where the drive is late, they have
+/// the velocities `sent_vx`, `sent_wz` of commands on their way in the next steps, and follow the controls after these,
+/// from the start.
 struct Sampling {
   const Noise& noise;
+  float vx_std = 0, wz_std = 0;
   std::span<const float> vx, wz, sent_vx, sent_wz;
   float start_vx = 0, start_wz = 0;
   Change change;

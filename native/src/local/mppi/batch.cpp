@@ -10,17 +10,26 @@ namespace mrpbench::local::mppi {
 
 namespace {
 
-thread_local Tables of_thread;
+thread_local Motions motions_of_thread;
+thread_local std::vector<Ways> ways_of_thread;
+
+Ways& ways_of(std::size_t block) {
+  ways_of_thread.resize(std::max(ways_of_thread.size(), block + 1));
+  return ways_of_thread[block];
+}
 
 }  // namespace
 
-Lent::Lent(Tables& to, std::size_t steps, std::size_t samples) : to_(to) {
-  std::swap(to_, of_thread);
+Lent::Lent(Batch& to, std::size_t block, std::size_t steps, std::size_t samples) : to_(to), ways_(ways_of(block)) {
+  std::swap(static_cast<Motions&>(to_), motions_of_thread);
+  std::swap(static_cast<Ways&>(to_), ways_);
   to_.resize(steps, samples);
+  to_.first = block * kBlock;
 }
 
 Lent::~Lent() {
-  std::swap(to_, of_thread);
+  std::swap(static_cast<Motions&>(to_), motions_of_thread);
+  std::swap(static_cast<Ways&>(to_), ways_);
 }
 
 void Batch::place(Pose pose) {
@@ -28,7 +37,7 @@ void Batch::place(Pose pose) {
   heading = {std::cos(pose.yaw), std::sin(pose.yaw)};
 }
 
-MRPBENCH_WIDE void Batch::find_furthest() {
+MRPBENCH_WIDE std::size_t Batch::find_furthest() {
   const std::size_t count = samples(), last = steps() - 1;
   nearest_.assign(count, std::numeric_limits<float>::max());
   index_.assign(count, 0);
@@ -52,7 +61,7 @@ MRPBENCH_WIDE void Batch::find_furthest() {
   }
   std::int32_t most = 0;
   for (std::size_t k = 0; k < count; ++k) most = std::max(most, index_[k]);
-  furthest = static_cast<std::size_t>(most);
+  return static_cast<std::size_t>(most);
 }
 
 }  // namespace mrpbench::local::mppi

@@ -41,10 +41,13 @@ class Constraint : public Critic {
   }
 };
 
-/// Add a share of the speed back.
-MRPBENCH_WIDE void add_reverse(const float* vx, float share, std::span<float> raw) {
-  MRPBENCH_NO_OVERLAP
-  for (std::size_t k = 0; k < raw.size(); ++k) raw[k] += share * std::max(-vx[k], 0.0f);
+/// Add the way back.
+MRPBENCH_WIDE void add_reverse(const Batch& batch, std::span<float> raw) {
+  for (std::size_t t = 0; t < batch.steps(); ++t) {
+    const float* const vx = batch.vx[t];
+    MRPBENCH_NO_OVERLAP
+    for (std::size_t k = 0; k < raw.size(); ++k) raw[k] += batch.dt * std::max(-vx[k], 0.0f);
+  }
 }
 
 /// Penalty for driving back.
@@ -61,7 +64,7 @@ class PreferForward : public Critic {
 
   bool score(const Batch& batch, std::span<float> raw) override {
     if (batch.path.length < static_cast<float>(options_.threshold_to_consider)) return true;
-    for (std::size_t t = 0; t < batch.steps(); ++t) add_reverse(batch.vx[t], batch.dt, raw);
+    add_reverse(batch, raw);
     return true;
   }
 

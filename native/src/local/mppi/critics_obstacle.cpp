@@ -1,5 +1,6 @@
 // Critics that keep samples away from obstacles.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 
@@ -45,15 +46,19 @@ class Lookup {
     double farthest = 0;
     for (const Point& p : map_.options().footprint) farthest = std::max(farthest, sim::length(p));
     near_ = outline_ ? inflated_cost(farthest, map_.inscribed(), map_.options().cost_scaling_factor) : kInscribed;
-    its_.costs.assign(map_.costs().begin(), map_.costs().end());
-    its_.costs.push_back(kOff);
     its_.cell.resize(batch.samples());
     its_.row.resize(batch.samples());
     its_.suspect.resize(batch.samples());
   }
 
-  /// Fill the row and the suspects of step t.
-  MRPBENCH_WIDE void find(std::size_t t) {
+  /// Look costs up in this costmap.
+  static void begin(const Costmap& map, Buffers& its) {
+    its.costs.assign(map.costs().begin(), map.costs().end());
+    its.costs.push_back(kOff);
+  }
+
+  /// Fill the row of step t, and the suspects if there are some. Returns whether there are.
+  MRPBENCH_WIDE bool find(std::size_t t) {
     const float cosine = cosine_, sine = sine_, left = x_, bottom = y_, near = static_cast<float>(near_);
     const std::int32_t width = map_.frame().width, height = map_.frame().height, off = width * height;
     const float *const px = batch_.x[t], *const py = batch_.y[t], *const costs = its_.costs.data();
@@ -70,8 +75,12 @@ class Lookup {
     }
     MRPBENCH_NO_OVERLAP
     for (std::size_t k = 0; k < count; ++k) row[k] = costs[cell[k]];
+    std::int32_t some = 0;
+    for (std::size_t k = 0; k < count; ++k) some |= (row[k] < 0) | (row[k] >= near) ? 1 : 0;
+    if (some == 0) return false;
     MRPBENCH_NO_OVERLAP
     for (std::size_t k = 0; k < count; ++k) suspect[k] = (row[k] < 0) | (row[k] >= near) ? 1 : 0;
+    return true;
   }
 
   /// Tell whether the robot collides at the pose of a sample, which is a suspect.
@@ -86,8 +95,6 @@ class Lookup {
     place(map_.options().footprint, pose, corners_);
     return outline_cost(map_, corners_).value_or(kLethal) >= kLethal;
   }
-
-  bool by_outline() const { return outline_; }
 
  private:
   const Batch& batch_;
@@ -107,8 +114,9 @@ bool sweep(const Batch& batch, Lookup& costs, Buffers& its, std::size_t step, do
   its.collides.assign(raw.size(), 0);
   std::size_t left = raw.size();
   for (std::size_t t = 0; t < batch.steps(); t += step) {
-    costs.find(t);
-    for (std::size_t k = 0; (k = next_byte(its.suspect.data(), 1, k, raw.size())) < raw.size(); ++k) {
+    const bool some = costs.find(t);
+    for (std::size_t k = some ? 0 : raw.size(); (k = next_byte(its.suspect.data(), 1, k, raw.size())) < raw.size();
+         ++k) {
       if (its.collides[k] || !costs.collides(t, k)) continue;
       its.collides[k] = 1;
       --left;
@@ -147,6 +155,8 @@ class Cost : public Critic {
     }
   };
   explicit Cost(const Options& options) : options_(options) {}
+
+  void begin(const Batch& batch) override { Lookup::begin(*batch.costmap, Buffers::of_thread()); }
 
   bool score(const Batch& batch, std::span<float> raw) override {
     Buffers& its = Buffers::of_thread();
@@ -188,39 +198,49 @@ class Obstacles : public Critic {
   };
   explicit Obstacles(const Options& options) : options_(options) {}
 
+  void begin(const Batch& batch) override {
+    Lookup::begin(*batch.costmap, Buffers::of_thread());
+    const bool by_outline = options_.consider_footprint && !batch.by_radius;
+    const auto inscribed = static_cast<float>(batch.costmap->inscribed());
+    for (std::size_t cost = 1; cost < 256; ++cost) {
+      const double away =
+          (std::log(253.0) - std::log(static_cast<double>(cost))) / batch.costmap->options().cost_scaling_factor;
+      distance_[cost] = static_cast<float>(away) + (by_outline ? inscribed : 0.0f);
+    }
+    repulsion_.clear();
+  }
+
   bool score(const Batch& batch, std::span<float> raw) override {
     Buffers& its = Buffers::of_thread();
     Lookup costs(batch, options_.consider_footprint, its);
-    const CostmapOptions& map = batch.costmap->options();
-    const float inflation = static_cast<float>(map.inflation_radius);
-    const float inscribed = static_cast<float>(batch.costmap->inscribed());
+    const float inflation = static_cast<float>(batch.costmap->options().inflation_radius);
     const bool near_goal = batch.path.length < static_cast<float>(options_.near_goal_distance);
-    float distance[256];  // of obstacles, by cost
-    for (int cost = 1; cost < 256; ++cost) {
-      const double away = (std::log(253.0) - std::log(cost)) / map.cost_scaling_factor;
-      distance[cost] = static_cast<float>(away) + (costs.by_outline() ? inscribed : 0.0f);
-    }
-    repulsion_.assign(raw.size(), 0);
+    share_ = static_cast<float>(options_.repulsion_weight) / static_cast<float>(batch.steps());
+    repulsion_.resize(batch.first + raw.size(), 0);
+    float* const repulsion = &repulsion_[batch.first];
     const auto margin = static_cast<float>(options_.collision_margin_distance);
     const auto repel = [&](const float* row, const char* collides) {
       for (std::size_t k = 0; k < raw.size(); ++k) {
         if (row[k] == 0 || collides[k]) continue;
-        const float away = distance[static_cast<std::size_t>(row[k])];
+        const float away = distance_[static_cast<std::size_t>(row[k])];
         if (away < margin) raw[k] += margin - away;
-        if (!near_goal) repulsion_[k] += std::max(inflation - away, 0.0f);
+        if (!near_goal) repulsion[k] += std::max(inflation - away, 0.0f);
       }
     };
-    const bool some = sweep(batch, costs, its, 1, options_.collision_cost, raw, repel);
+    return sweep(batch, costs, its, 1, options_.collision_cost, raw, repel);
+  }
+
+  void finish(std::span<float> raw) override {
     const float least = *std::min_element(repulsion_.begin(), repulsion_.end());
-    const float share = static_cast<float>(options_.repulsion_weight) / static_cast<float>(batch.steps());
     for (std::size_t k = 0; k < raw.size(); ++k) {
-      raw[k] = static_cast<float>(options_.critical_weight) * raw[k] + share * (repulsion_[k] - least);
+      raw[k] = static_cast<float>(options_.critical_weight) * raw[k] + share_ * (repulsion_[k] - least);
     }
-    return some;
   }
 
  private:
   Options options_;
+  std::array<float, 256> distance_{};  // of obstacles, by cost
+  float share_ = 0;                    // of the repulsion by a pose
   std::vector<float> repulsion_;
 };
 

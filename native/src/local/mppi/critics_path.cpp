@@ -98,6 +98,8 @@ class PathAlign : public Critic {
   };
   explicit PathAlign(const Options& options) : options_(options) {}
 
+  bool looks_at_furthest() const override { return true; }
+
   bool score(const Batch& batch, std::span<float> raw) override {
     const LocalPath& path = batch.path;
     if (path.length < static_cast<float>(options_.threshold_to_consider)) return true;
@@ -163,6 +165,8 @@ class PathFollow : public Critic {
   };
   explicit PathFollow(const Options& options) : options_(options) {}
 
+  bool looks_at_furthest() const override { return true; }
+
   bool score(const Batch& batch, std::span<float> raw) override {
     const LocalPath& path = batch.path;
     if (path.length < static_cast<float>(options_.threshold_to_consider)) return true;
@@ -196,6 +200,8 @@ class PathAngle : public Critic {
   };
   explicit PathAngle(const Options& options) : options_(options) {}
 
+  bool looks_at_furthest() const override { return true; }
+
   bool score(const Batch& batch, std::span<float> raw) override {
     const LocalPath& path = batch.path;
     if (path.length < static_cast<float>(options_.threshold_to_consider)) return true;
@@ -204,7 +210,7 @@ class PathAngle : public Critic {
     const float now = off(std::atan2(py, px), 0, along);
     if (now < static_cast<float>(options_.max_angle_to_furthest)) return true;
     const std::size_t last = batch.steps() - 1;
-    const float *x = batch.x[last], *y = batch.y[last], *yaw = batch.yaw[last];
+    const float *x = batch.x[last], *y = batch.y[last], *yaw = batch.end_yaw.data();
     for (std::size_t k = 0; k < raw.size(); ++k) raw[k] = off(std::atan2(py - y[k], px - x[k]), yaw[k], along);
     return true;
   }

@@ -1,38 +1,40 @@
 // What led to a command of MPPI.
+#include <numeric>
+
 #include "mrpbench_local/mppi/mppi.hpp"
 
 namespace mrpbench::local {
 
 using namespace mppi;
 
-Samples trajectories(const Batch& batch, std::size_t every, std::size_t step) {
-  Samples found;
-  std::size_t rows = 0, columns = 0;
-  for (std::size_t k = 0; k < batch.samples(); k += every, ++rows) {
-    columns = 0;
-    for (std::size_t t = 0; t < batch.steps(); t += step, ++columns) {
+void mppi::add_trajectories(const Batch& batch, std::size_t every, std::size_t step, Samples& to) {
+  const std::size_t columns = (batch.steps() + step - 1) / step;
+  for (std::size_t k = (every - batch.first % every) % every; k < batch.samples(); k += every) {
+    for (std::size_t t = 0; t < batch.steps(); t += step) {
       const Pose pose = batch.in_map(batch.x[t][k], batch.y[t][k], batch.yaw[t][k]);
-      found.twist.values.insert(found.twist.values.end(), {batch.vx[t][k], batch.wz[t][k]});
-      found.pose.values.insert(found.pose.values.end(), {pose.x, pose.y, pose.yaw});
+      to.twist.values.insert(to.twist.values.end(), {batch.vx[t][k], batch.wz[t][k]});
+      to.pose.values.insert(to.pose.values.end(), {pose.x, pose.y, pose.yaw});
     }
   }
-  found.twist.shape = {rows, columns, 2};
-  found.pose.shape = {rows, columns, 3};
-  return found;
+  const std::size_t rows = to.pose.values.size() / (3 * columns);
+  to.twist.shape = {rows, columns, 2};
+  to.pose.shape = {rows, columns, 3};
 }
 
 /// What each critic, and then those of the caller if there are some, contributes to the mean total of the plan.
 std::vector<double> Mppi::mean_scores() const {
   const std::size_t samples = total_.size();
-  const float per = 1 / sum(weight_.data(), samples);
+  const auto mean = [&](const std::vector<float>& of) {
+    return std::inner_product(of.begin(), of.end(), weight_.begin(), 0.0);
+  };
   std::vector<double> found;
   std::vector<float> scores(samples);
   for (std::size_t c = 0; c < critics_.size(); ++c) {
     std::fill(scores.begin(), scores.end(), 0.0f);
     if (critics_[c].weight != 0) critics_[c].add(std::span<const float>(raw_).subspan(c * samples, samples), scores);
-    found.push_back(weighted_sum(weight_.data(), scores.data(), samples) * per);
+    found.push_back(mean(scores));
   }
-  if (!added_.empty()) found.push_back(weighted_sum(weight_.data(), added_.data(), samples) * per);
+  if (!added_.empty()) found.push_back(mean(added_));
   return found;
 }
 
@@ -42,9 +44,11 @@ Explanation Mppi::explain() const {
   if (!scored_) return found;
   constexpr std::size_t every = 5;
   Batch batch = batch_;
-  const Lent lent(batch, plan_vx_.size(), total_.size());
-  sample(batch);
-  Samples samples = trajectories(batch, every, 3);
+  Samples samples;
+  each_block(batch, [&] {
+    sample(batch);
+    add_trajectories(batch, every, 3, samples);
+  });
   found.arrays = {{"twist", std::move(samples.twist)},
                   {"pose", std::move(samples.pose)},
                   {"score", {{raw_.begin(), raw_.end()}, {critics_.size(), total_.size()}}},

@@ -44,7 +44,10 @@ Mppi::Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key,
   shift_ = std::abs(options.period - options.model_dt) < 1e-9;
   const auto steps = static_cast<std::size_t>(options.time_steps),
              samples = static_cast<std::size_t>(options.batch_size);
-  for (Table* it : {&noise_.vx, &noise_.wz}) it->resize(steps, samples);
+  for (std::size_t first = 0; first < samples; first += kBlock) {
+    Noise& its = noise_.emplace_back();
+    for (auto* it : {&its.vx, &its.wz}) it->resize(steps, std::min(kBlock, samples - first));
+  }
   batch_.dt = static_cast<float>(options.model_dt);
   batch_.by_radius = robot.by_radius;
   plan_vx_.assign(steps, 0);
@@ -63,15 +66,7 @@ Mppi::Mppi(const MppiOptions& options, const RobotOptions& robot, RandomKey key,
 /// Sample noise, keyed by the seed of the run, the robot and the number of the draw.
 void Mppi::draw() {
   sim::Draws draws(key_.seed, key_.robot, drawn_++);
-  const auto vx = static_cast<float>(options_.vx_std), wz = static_cast<float>(options_.wz_std);
-  for (std::size_t t = 0; t < noise_.vx.steps; ++t) {
-    float *const speeds = noise_.vx[t], *const rates = noise_.wz[t];
-    for (std::size_t k = 0; k < noise_.vx.samples; ++k) {
-      const auto [a, b] = draws.normal();
-      speeds[k] = static_cast<float>(a) * vx;
-      rates[k] = static_cast<float>(b) * wz;
-    }
-  }
+  for (Noise& its : noise_) its.draw(draws);
 }
 
 void Mppi::reset() {
@@ -124,8 +119,9 @@ std::optional<Twist> Mppi::decide(const Situation& now, const Extra& extra) {
     return last_;
   }
   scored_ = true;
-  const Lent lent(batch_, plan_vx_.size(), total_.size());
-  if (options_.roll_noises) noise_.first = (noise_.first + 1) % plan_vx_.size();
+  if (options_.roll_noises) {
+    for (Noise& its : noise_) its.first = (its.first + 1) % plan_vx_.size();
+  }
   for (int attempt = 0; attempt <= options_.retry_attempt_limit; ++attempt) {
     if (!drawn_fresh_ || options_.regenerate_noises) draw();
     drawn_fresh_ = true;
@@ -189,53 +185,77 @@ void Mppi::sample(Batch& batch) const {
   const float dt = batch.dt;
   const Change change{static_cast<float>(options_.ax_max) * dt, static_cast<float>(-options_.ax_min) * dt,
                       static_cast<float>(options_.az_max) * dt};
-  roll_out({noise_, centre_vx_, centre_wz_, sent_vx_, sent_wz_, static_cast<float>(start_.ahead),
+  roll_out({noise_[batch.first / kBlock], static_cast<float>(options_.vx_std), static_cast<float>(options_.wz_std),
+            centre_vx_, centre_wz_, sent_vx_, sent_wz_, static_cast<float>(start_.ahead),
             static_cast<float>(start_.turn), change, dt},
            batch);
 }
 
-/// The controls of one step: the velocities that follow them if these are to be within the accelerations, too.
-std::pair<Controls, Controls> Mppi::controls(std::size_t t) const {
-  const auto of = [&](const Table& velocities, std::size_t late, float centre, const float* noise) -> Controls {
-    const std::size_t at = t + 1 + late;
-    if (options_.clamp_raw_controls && at < batch_.steps()) return {0, velocities[at]};
-    return {centre, noise};
+/// Call `visit(steps, std, centre, plan)` with how far the controls of a block are from the centre, on each
+/// axis: noise, or what is left of it in the velocities that follow, if controls are to be within the accelerations,
+/// too.
+template <class Visit>
+void Mppi::each_deviation(Visit&& visit) {
+  const Noise& its = noise_[batch_.first / kBlock];
+  const auto axis = [&](const Rows<std::int16_t>& noise, double std, const Table& velocities, std::size_t late,
+                        std::span<const float> centre, std::span<float> plan) {
+    const std::size_t clamped = options_.clamp_raw_controls ? plan.size() - 1 - late : 0;
+    std::vector<Deviations<float>> followed;
+    for (std::size_t t = 0; t < clamped; ++t) followed.push_back({velocities[t + 1 + late], 1, centre[t]});
+    if (clamped > 0) visit(VelocityRows(followed), std, centre, plan);
+    std::vector<Deviations<std::int16_t>> drawn;
+    drawn.reserve(plan.size());
+    for (std::size_t t = clamped; t < plan.size(); ++t) {
+      drawn.push_back({noise[its.row(t)], static_cast<float>(std) * Noise::kUnit, 0});
+    }
+    visit(NoiseRows(drawn), std, centre.subspan(clamped), plan.subspan(clamped));
   };
-  return {of(batch_.vx, sent_vx_.size(), centre_vx_[t], noise_.vx_of(t)),
-          of(batch_.wz, sent_wz_.size(), centre_wz_[t], noise_.wz_of(t))};
+  axis(its.vx, options_.vx_std, batch_.vx, sent_vx_.size(), centre_vx_, plan_vx_);
+  axis(its.wz, options_.wz_std, batch_.wz, sent_wz_.size(), centre_wz_, plan_wz_);
 }
 
 /// One update of the plan. Returns false if every sample collides.
 bool Mppi::improve(const Extra& extra) {
-  const std::size_t steps = batch_.steps(), samples = batch_.samples();
+  const std::size_t samples = total_.size();
   const MppiOptions& it = options_;
   begin_plan();
   centre_vx_ = plan_vx_;
   centre_wz_ = plan_wz_;
-  sample(batch_);
-  batch_.find_furthest();
-  if (!score(extra)) return false;
-  for (std::size_t t = 0; t < steps; ++t) {
-    const float on_vx = plan_vx_[t] * static_cast<float>(it.gamma / (it.vx_std * it.vx_std));
-    const float on_wz = plan_wz_[t] * static_cast<float>(it.gamma / (it.wz_std * it.wz_std));
-    const auto [vx, wz] = controls(t);
-    add_deviation(vx, wz, plan_vx_[t], plan_wz_[t], on_vx, on_wz, total_);
-  }
+  std::fill(total_.begin(), total_.end(), 0.0f);
+  std::fill(raw_.begin(), raw_.end(), 0.0f);
+  free_.assign(critics_.size(), 0);
+  for (const WeightedCritic& critic : critics_) critic.critic->begin(batch_);
+  std::size_t furthest = 0;
+  each_block(batch_, [&] {
+    sample(batch_);
+    const std::span<float> total(&total_[batch_.first], batch_.samples());
+    each_deviation([&](auto steps, double std, std::span<const float> centre, std::span<float>) {
+      std::vector<float> per(centre.begin(), centre.end());
+      for (float& cost : per) cost *= static_cast<float>(it.gamma / (std * std));
+      add_deviations(steps, per, total);
+    });
+    furthest = std::max(furthest, batch_.find_furthest());
+    score(false);
+  });
+  batch_.furthest = furthest;
+  each_block(batch_, [&] { score(true); });
+  if (!add_scores(extra)) return false;
   const float least = *std::min_element(total_.begin(), total_.end());
   if (!(least < kInfinity)) return false;
   const auto sharpness = static_cast<float>(-1 / it.temperature);
-  weight_.resize(samples);
+  weight_.assign((samples + kBlock - 1) / kBlock * kBlock, 0);
   for (std::size_t k = 0; k < samples; ++k) {
     const float exponent = (total_[k] - least) * sharpness;
-    weight_[k] = exponent < kLeastExponent ? 0 : std::exp(exponent);
+    if (exponent >= kLeastExponent) weight_[k] = std::exp(exponent);
   }
-  const float per = 1 / sum(weight_.data(), samples);
-  for (std::size_t t = 0; t < steps; ++t) {
-    const auto [vx, wz] = controls(t);
-    const auto [sum_vx, sum_wz] = weighted_sums(weight_.data(), vx, wz, samples);
-    plan_vx_[t] = sum_vx * per;
-    plan_wz_[t] = sum_wz * per;
-  }
+  const float per = 1 / sum(weight_);
+  for (float& it : weight_) it *= per;
+  each_block(batch_, [&] {
+    if (it.clamp_raw_controls) sample(batch_);
+    const std::span<const float> weights(&weight_[batch_.first], batch_.vx.width());
+    each_deviation(
+        [&](auto steps, double, std::span<const float>, std::span<float> plan) { add_weighted(weights, steps, plan); });
+  });
   smooth(plan_vx_, past_vx_, it.sgf_order);
   smooth(plan_wz_, past_wz_, it.sgf_order);
   constrain(plan_vx_, plan_wz_, batch_.limits, {it.ax_max, -it.ax_min, it.az_max}, start_.ahead, start_.turn, it.period,
@@ -255,16 +275,25 @@ void Mppi::begin_plan() {
   plan_wz_[0] = clamped(plan_wz_[0], start_.turn - period * options_.az_max, start_.turn + period * options_.az_max);
 }
 
-/// The totals of the critics. Returns false if every sample collides.
-bool Mppi::score(const Extra& extra) {
-  const std::size_t samples = batch_.samples();
-  std::fill(total_.begin(), total_.end(), 0.0f);
-  std::fill(raw_.begin(), raw_.end(), 0.0f);
+/// Score a block by the critics that look at the furthest point of the path, or by the others.
+void Mppi::score(bool by_furthest) {
+  const std::size_t samples = total_.size();
+  for (std::size_t c = 0; c < critics_.size(); ++c) {
+    const WeightedCritic& it = critics_[c];
+    if (it.weight == 0 || it.critic->looks_at_furthest() != by_furthest) continue;
+    if (it.critic->score(batch_, {&raw_[c * samples + batch_.first], batch_.samples()})) free_[c] = 1;
+  }
+}
+
+/// Add what all critics score. Returns false if every sample collides.
+bool Mppi::add_scores(const Extra& extra) {
+  const std::size_t samples = total_.size();
   for (std::size_t c = 0; c < critics_.size(); ++c) {
     const WeightedCritic& it = critics_[c];
     if (it.weight == 0) continue;
     const std::span<float> raw(&raw_[c * samples], samples);
-    if (!it.critic->score(batch_, raw)) {
+    it.critic->finish(raw);
+    if (!free_[c]) {
       std::fill(total_.begin(), total_.end(), kInfinity);
       return false;
     }
@@ -272,7 +301,12 @@ bool Mppi::score(const Extra& extra) {
   }
   if (!extra) return true;
   std::vector<double> added(samples, 0.0);
-  extra(trajectories(batch_, 1, 1), added);
+  Samples all;
+  each_block(batch_, [&] {
+    sample(batch_);
+    add_trajectories(batch_, 1, 1, all);
+  });
+  extra(all, added);
   added_.assign(added.begin(), added.end());
   for (std::size_t k = 0; k < samples; ++k) total_[k] += added_[k];
   return true;

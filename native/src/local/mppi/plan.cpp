@@ -11,64 +11,83 @@ namespace mrpbench::local::mppi {
 namespace {
 
 /// Numbers of neighbouring samples. Sums have as many parts, which are added up in the end.
-constexpr std::size_t kBlock = 8;
-using Block = float __attribute__((vector_size(kBlock * sizeof(float))));
+constexpr std::size_t kLanes = 16;
+using Lanes = float __attribute__((vector_size(kLanes * sizeof(float))));
 
-void load(Block& block, const float* from) {
-  std::memcpy(&block, from, sizeof block);
+void load(Lanes& lanes, const float* from) {
+  std::memcpy(&lanes, from, sizeof lanes);
 }
 
-void load(Block& block, Controls from, std::size_t k) {
-  load(block, from.row + k);
-  block += from.base;
+void load(Lanes& lanes, const std::int16_t* from) {
+  std::int16_t __attribute__((vector_size(kLanes * sizeof(std::int16_t)))) row;
+  std::memcpy(&row, from, sizeof row);
+  using Numbers = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
+  lanes = __builtin_convertvector(__builtin_convertvector(row, Numbers), Lanes);
 }
 
-float total(const Block& it) {
-  return ((it[0] + it[1]) + (it[2] + it[3])) + ((it[4] + it[5]) + (it[6] + it[7]));
+float total(const Lanes& it) {
+  float part[8];
+  for (std::size_t i = 0; i < 8; ++i) part[i] = it[i] + it[i + 8];
+  return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
+template <class T>
+[[gnu::always_inline]] inline void add_weighted_of(std::span<const float> weights, std::span<const Deviations<T>> steps,
+                                                   std::span<float> plan) {
+  for (std::size_t t = 0; t < steps.size(); ++t) {
+    const Deviations<T> from = steps[t];
+    Lanes sums[2]{};
+    for (std::size_t k = 0; k < weights.size(); k += 2 * kLanes) {
+      for (std::size_t i = 0; i < 2; ++i) {
+        Lanes weight, value;
+        load(weight, &weights[k + i * kLanes]);
+        load(value, from.row + k + i * kLanes);
+        sums[i] += weight * (value * from.unit - from.plan);
+      }
+    }
+    plan[t] += total(sums[0] + sums[1]);
+  }
+}
+
+template <class T>
+[[gnu::always_inline]] inline void add_deviations_of(std::span<const Deviations<T>> steps, std::span<const float> per,
+                                                     std::span<float> total) {
+  float* const sums = total.data();
+  const std::size_t count = total.size();
+  for (std::size_t t = 0; t < steps.size(); ++t) {
+    const T* const row = steps[t].row;
+    const float unit = steps[t].unit, plan = steps[t].plan, cost = per[t];
+    MRPBENCH_NO_OVERLAP
+    for (std::size_t k = 0; k < count; ++k) sums[k] += cost * (static_cast<float>(row[k]) * unit - plan);
+  }
 }
 
 }  // namespace
 
-MRPBENCH_WIDE float sum(const float* values, std::size_t count) {
-  Block sum{};
-  std::size_t k = 0;
-  for (; k + kBlock <= count; k += kBlock) {
-    Block value;
-    load(value, values + k);
-    sum += value;
+MRPBENCH_WIDE float sum(std::span<const float> weights) {
+  Lanes sum{};
+  for (std::size_t k = 0; k < weights.size(); k += kLanes) {
+    Lanes weight;
+    load(weight, &weights[k]);
+    sum += weight;
   }
-  for (; k < count; ++k) sum[k % kBlock] += values[k];
   return total(sum);
 }
 
-MRPBENCH_WIDE std::pair<float, float> weighted_sums(const float* weights, Controls vx, Controls wz, std::size_t count) {
-  Block sum_vx{}, sum_wz{};
-  std::size_t k = 0;
-  for (; k + kBlock <= count; k += kBlock) {
-    Block weight, speed, rate;
-    load(weight, weights + k);
-    load(speed, vx, k);
-    load(rate, wz, k);
-    sum_vx += weight * speed;
-    sum_wz += weight * rate;
-  }
-  for (; k < count; ++k) {
-    sum_vx[k % kBlock] += weights[k] * vx[k];
-    sum_wz[k % kBlock] += weights[k] * wz[k];
-  }
-  return {total(sum_vx), total(sum_wz)};
+MRPBENCH_WIDE void add_weighted(std::span<const float> weights, NoiseRows steps, std::span<float> plan) {
+  add_weighted_of(weights, steps, plan);
 }
 
-float weighted_sum(const float* weights, const float* values, std::size_t count) {
-  return weighted_sums(weights, {0, values}, {0, values}, count).first;
+MRPBENCH_WIDE void add_weighted(std::span<const float> weights, VelocityRows steps, std::span<float> plan) {
+  add_weighted_of(weights, steps, plan);
 }
 
-MRPBENCH_WIDE void add_deviation(Controls vx, Controls wz, float plan_vx, float plan_wz, float per_vx, float per_wz,
-                                 std::span<float> total) {
-  MRPBENCH_NO_OVERLAP
-  for (std::size_t k = 0; k < total.size(); ++k) {
-    total[k] += per_vx * (vx[k] - plan_vx) + per_wz * (wz[k] - plan_wz);
-  }
+MRPBENCH_WIDE void add_deviations(NoiseRows steps, std::span<const float> per, std::span<float> total) {
+  add_deviations_of(steps, per, total);
+}
+
+MRPBENCH_WIDE void add_deviations(VelocityRows steps, std::span<const float> per, std::span<float> total) {
+  add_deviations_of(steps, per, total);
 }
 
 void smooth(std::span<float> values, const std::array<float, 4>& past, int order) {

@@ -191,7 +191,7 @@ def test_no_option_exceeds_the_limits_of_the_robot():
             "          clearin: True",
             r"\d+:11: .*scan_layer.scan: .*'clearin' \(did you mean",
         ),
-        ("VoxelLayer", "SonarLayer", r"'SonarLayer' is not an implemented layer"),
+        ("VoxelLayer", "SonarLayer", r"'SonarLayer' is not an implemented layer \(.*choose some by `local_costmap:"),
         ("dwb_core::DWBLocalPlanner", "nav2_mppi_controller::MPPIController", r"params.yaml:6:7: .*is not dwb_core"),
     ],
 )

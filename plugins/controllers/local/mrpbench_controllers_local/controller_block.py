@@ -6,7 +6,7 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.nav2 import Nav2Block
 
 SHIM = "nav2_rotation_shim_controller::RotationShimController"
-NOT_HERE = "the shim is not used here (`plugin: rotation_shim` uses it)"
+NOT_HERE = "the shim is not used here"
 
 
 def controller_block(server: Nav2Block, plugin: str, controller_id: str | None) -> Nav2Block:
@@ -31,7 +31,8 @@ def controller_block(server: Nav2Block, plugin: str, controller_id: str | None) 
         ids = [name for name in named if plugin in _plugins(server, name, listed)]
     if not ids:
         blocks = ", ".join(server.blocks()) or "none"
-        message = f"no parameters of {' or '.join(listed)}, which it lists"
+        why = "it lists" if any(f"controller_plugin{end}" in server for end in ("s", "_ids", "")) else "is the default"
+        message = f"no parameters of {' or '.join(listed)}, which {why}"
         raise server.error(message, "controller_plugins", hint=f"blocks that there are: {blocks}")
     fitting = [name for name in ids if plugin in _plugins(server, name, listed)]
     if not fitting:
@@ -65,7 +66,7 @@ def controller_notes(server: Nav2Block, block: Nav2Block) -> tuple[str, ...]:
         else [f"controller_plugins lists {', '.join(listed)}, but only {block_id} has parameters"]
     )
     if _name(block.take("plugin", str, "")) == SHIM:
-        notes.append(NOT_HERE)
+        notes.append(f"{NOT_HERE}: take `plugin: rotation_shim` with this file, and this as its `primary_controller`")
     place = f"{block.document.file}: " if block.document else ""
     return tuple(f"{place}{block.title}: {note}" for note in notes)
 

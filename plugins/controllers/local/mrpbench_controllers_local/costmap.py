@@ -106,8 +106,12 @@ class LocalCostmap(CostmapGrid, InflationLayer, ObservationSource):
             return None, {}
         layer_type = next((kind for kind, word in _LAYERS.items() if word == name), name)
         kind = layer.take("plugin", str, layer_type).replace("/", "::").rpartition("::")[2]
+        if kind not in _LAYERS and self.plugins is not None:
+            layer.ignore()
+            return None, {}
         if kind not in _LAYERS:
-            raise layer.error(f"{kind!r} is not an implemented layer", "plugin", hint=f"layers: {', '.join(_LAYERS)}")
+            hint = f"layers: {', '.join(_LAYERS)}; choose some by `local_costmap: {{plugins: [obstacle_layer, …]}}`"
+            raise layer.error(f"{kind!r} is not an implemented layer", "plugin", hint=hint)
         layer.not_used(*OF_LAYERS)
         values: dict[str, Any] = {}
         if _LAYERS[kind] == "inflation_layer":

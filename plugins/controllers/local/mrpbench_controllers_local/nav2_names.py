@@ -5,7 +5,7 @@ from mrpbench_native.local import controller_options
 OF_SHIM = (
     *("forward_sampling_distance", "angular_dist_threshold", "angular_disengage_threshold", "max_angular_accel"),
     *("rotate_to_heading_angular_vel", "simulate_ahead_time", "rotate_to_goal_heading", "rotate_to_heading_once"),
-    *("closed_loop", "use_path_orientations"),
+    *("closed_loop", "use_path_orientations", "max_cost_threshold"),
 )
 """Parameters of Nav2's rotation shim, which the plugin `rotation_shim` reads."""
 OF_CONTROLLERS = (

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from mrpbench_controllers_dwb import Dwb, PathDist
 from mrpbench_controllers_graceful import Graceful
+from mrpbench_controllers_local.costmap import LocalCostmap
 from mrpbench_controllers_mppi import Mppi
 from mrpbench_controllers_rotation_shim import RotationShim
 from mrpbench_controllers_rpp import Rpp
@@ -61,7 +62,10 @@ def test_the_block_of_a_controller_is_found_by_the_ids_that_a_file_lists_anywher
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (server(f"MyCtl: {DWB}"), r"no parameters of FollowPath, which it lists \(blocks that there are: MyCtl\)"),
+        (
+            server(f"MyCtl: {DWB}"),
+            r"no parameters of FollowPath, which is the default \(blocks that there are: MyCtl\)",
+        ),
         (server(f"controller_plugins: [A], FollowPath: {DWB}"), r"no parameters of A, .*there are: FollowPath\)"),
         (server("controller_frequency: 20.0"), r"no parameters of FollowPath, .*there are: none"),
         (server(f"FollowPath: {{plugin: '{RPP}'}}"), r"is not dwb_core::DWBLocalPlanner \(choose `plugin: rpp`\)"),
@@ -79,6 +83,14 @@ def test_the_block_of_a_controller_is_found_by_the_ids_that_a_file_lists_anywher
         (server("FollowPath: {plugin: 'dwb_core::DWBLocalPlanner', max_vel_xx: 1.0}"), "'max_vel_xx'"),
         ("/**: {ros__parameters: {FollowPath: {max_vel_xx: 1.0}}}", "'max_vel_xx'"),
         (server("FollowPath: {critics: [PathDist], PathDist: {scal: 1.0}}"), r"PathDist: .*'scal' \(did you mean"),
+        (
+            server("FollowPath: {plugin: 'dwb_core::DWBLocalPlanner', max_vel_theta: 1.0, min_vel_theta: -1.0}"),
+            r"'min_vel_theta' \(did you mean 'min_speed_theta'\?\)",
+        ),
+        (
+            f"controller_server: {{ros__parameters: {{controller_plugins: [FollowPath]}}, FollowPath: {DWB}}}",
+            r":1:74: FollowPath is beside 'ros__parameters', so it is of no node \(indent it so that it is in",
+        ),
         ("planner_server: {ros__parameters: {}}", r"no parameters of the node 'controller_server' .*planner_server"),
         (f"c: {{ros__parameters: {{FollowPath: {DWB}}}}}", r"the node 'controller_server' \(it has those of c\)"),
     ],
@@ -106,13 +118,33 @@ def test_options_choose_among_controllers_and_namespaces(write):
         Dwb(nav2=spaces)
 
 
+def test_what_a_file_says_of_an_option_that_is_set_is_not_judged(write):
+    file = write(
+        follow("vx_samples: many, max_vel_x: 0.1")
+        + "\nlocal_costmap: {local_costmap: {ros__parameters: {width: 2000, plugins: [stvl, inflation_layer], "
+        "stvl: {plugin: 'spatio_temporal_voxel_layer/SpatioTemporalVoxelLayer', voxel_decay: 5.0}, "
+        "inflation_layer: {plugin: 'nav2_costmap_2d::InflationLayer', inflation_radius: 0.4}}}}"
+        "\namcl: {ros__parameters: {robot_model_type: 'nav2_amcl::OmniMotionModel'}}"
+    )
+    costmap = LocalCostmap(width=4.0, plugins=("obstacle_layer", "inflation_layer"))
+    found = values(Dwb(nav2=file, vx_samples=9, local_costmap=costmap))
+    expected = {"vx_samples": 9, "max_vel_x": 0.1, "width": 4.0, "inflation_radius": 0.4, "obstacle_layer": True}
+    assert {name: found[name] for name in expected} == expected
+    assert Amcl(nav2=file, robot_model_type="differential").notes() == ()
+    for refused in (Dwb, Amcl):
+        with pytest.raises(InputError):
+            refused(nav2=file).notes()
+
+
 def test_options_that_choose_have_no_effect_without_a_file():
     for component in (Dwb(), Mppi(), Rpp(), Graceful(), Amcl(), Waypoints(), RotationShim(primary_controller=Rpp())):
         assert component.idle_options()["namespace"] == "there is no Nav2 file"
 
 
 def test_what_has_no_effect_is_told_once_by_a_study(write):
-    text = server(f"controller_frequency: 20.0, FollowPath: {DWB}, Old: {{typo: 1}}, min_x_velocity_threshold: 0.1")
+    text = server(
+        f"/bond_disable_heartbeat_timeout: true, controller_frequency: 20.0, FollowPath: {DWB}, Old: {{typo: 1}}"
+    )
     file = write(text + "\namcl: {ros__parameters: {tf_broadcast: true}}")
     settings = {"world": "office", "scenario": {"plugin": "random", "robots": 1}, "planner": "example"}
     settings |= {"controller": {"plugin": "dwb", "nav2": str(file)}, "simulator": "planar"}
@@ -123,7 +155,7 @@ def test_what_has_no_effect_is_told_once_by_a_study(write):
     notes = [note.removeprefix(f"{file}: ") for note in load_study(settings | {"matrix": {"seed": [0, 1]}}).notes]
     assert sorted(notes) == [
         "amcl: not used here: tf_broadcast",
-        "controller_server: not used here: controller_frequency, Old, min_x_velocity_threshold",
+        "controller_server: not used here: /bond_disable_heartbeat_timeout, controller_frequency, Old",
         "no parameters of the node 'local_costmap', so the defaults hold: controller_server, amcl",
     ]
 
@@ -201,6 +233,9 @@ def test_rpp_and_graceful_read_the_names_of_all_releases(write):
     for name in ("desired_linear_vel", "max_linear_vel"):
         text = follow(f"plugin: '{RPP}', {name}: 0.1, goal_dist_tol: 0.25, min_distance_to_obstacle: 0.5")
         assert values(Rpp(nav2=write(text)))["max_linear_vel"] == 0.1
+    for name in ("max_allowed_time_to_collision", "max_allowed_time_to_collision_up_to_carrot"):
+        text = follow(f"plugin: '{RPP}', {name}: 0.7")
+        assert values(Rpp(nav2=write(text)))["max_allowed_time_to_collision_up_to_carrot"] == 0.7
     text = follow("plugin: 'nav2_graceful_controller::GracefulController', motion_target_dist: 0.6, lambda: 1.5")
     found = values(Graceful(nav2=write(text)))
     assert (found["max_lookahead"], found["lambda_"]) == (0.6, 1.5)
@@ -209,15 +244,15 @@ def test_rpp_and_graceful_read_the_names_of_all_releases(write):
 @pytest.mark.parametrize("primary", [f"'{RPP}', lookahead_dist: 0.4", f"{{plugin: '{RPP}', lookahead_dist: 0.4}}"])
 def test_a_shim_and_its_controller_read_one_file(write, primary):
     text = follow(
-        f"plugin: '{SHIM}', angular_dist_threshold: 0.5, rotate_to_heading_once: true, primary_controller: {primary}"
+        f"plugin: '{SHIM}', angular_dist_threshold: 0.5, max_cost_threshold: 253.0, primary_controller: {primary}"
     )
     file = write(text)
     shim = RotationShim(nav2=file, primary_controller=Rpp(nav2=file))
     assert shim.settled()["angular_dist_threshold"] == 0.5
     assert values(shim.primary_controller)["lookahead_dist"] == 0.4
     shim_notes, inner = shim.notes(), shim.primary_controller.notes()
-    assert shim_notes[0].endswith("controller_server.FollowPath: not used here: rotate_to_heading_once")
-    assert inner[0].endswith("FollowPath: the shim is not used here (`plugin: rotation_shim` uses it)")
+    assert shim_notes[0].endswith("controller_server.FollowPath: not used here: max_cost_threshold")
+    assert "FollowPath: the shim is not used here: take `plugin: rotation_shim` with this file" in inner[0]
     assert not any("the shim" in note for note in shim_notes)
     with pytest.raises(InputError, match=r"RegulatedPure\w+ is not nav2_rotation_shim"):
         RotationShim(nav2=write(follow(f"plugin: '{RPP}'")), primary_controller=Rpp())

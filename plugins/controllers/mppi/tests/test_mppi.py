@@ -90,10 +90,11 @@ def test_a_speed_limit_scales_all_limits_but_never_raises_them(limit, ahead, bac
         session = Mppi(critics=(PathFollowCritic(), GoalCritic()), rotate_to_path=0.0).start_fleet(
             (SPRINTER,), NOWHERE, PERIOD
         )
-        twist = np.zeros(2)
-        for _ in range(30):
+        twist, said = np.zeros(2), []
+        for _ in range(60):
             twist = session.command(seen([(0.0, 0.0), (end, 0.0)], twist=tuple(twist), speed=limit))[0]
-        assert twist[0] == pytest.approx(speed, abs=1e-6)
+            said.append(twist[0])
+        assert max(said, key=abs) == pytest.approx(speed, abs=1e-6)
         plan = session.explain(0)["plan"][:, 0]
         assert back - 1e-6 <= plan.min() <= plan.max() <= ahead + 1e-6
 

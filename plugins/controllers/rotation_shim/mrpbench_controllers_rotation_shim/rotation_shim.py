@@ -85,7 +85,7 @@ class RotationShim(Controller):
         """Return what the Nav2 file says without effect here, and the notes of the other controller."""
         outer = () if self.nav2 is None else self._read(self.nav2)[1]
         inner = self.primary_controller.notes()
-        return (*outer, *(note for note in inner if self.nav2 is None or not note.endswith(NOT_HERE)))
+        return (*outer, *(note for note in inner if self.nav2 is None or NOT_HERE not in note))
 
     def _read(self, nav2: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
         """Return what the Nav2 file says, and notes on what it says without effect."""
@@ -99,6 +99,6 @@ class RotationShim(Controller):
         return file.read("controller_server", self.namespace, read)
 
 
-_NOT_USED = ("rotate_to_heading_once", "use_path_orientations")
+_NOT_USED = ("rotate_to_heading_once", "use_path_orientations", "max_cost_threshold")
 """Parameters of Nav2's shim without effect here. The other parameters of its block are for the other controller, which
 also refuses those that are unknown."""

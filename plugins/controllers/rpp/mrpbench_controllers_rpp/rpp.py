@@ -23,7 +23,10 @@ class Rpp(LocalController):
 
     native: ClassVar[str] = "rpp"
     nav2_plugin: ClassVar[str] = "nav2_regulated_pure_pursuit_controller::RegulatedPurePursuitController"
-    renamed: ClassVar[Mapping[str, str]] = {"desired_linear_vel": "max_linear_vel"}
+    renamed: ClassVar[Mapping[str, str]] = {
+        "desired_linear_vel": "max_linear_vel",
+        "max_allowed_time_to_collision": "max_allowed_time_to_collision_up_to_carrot",
+    }
 
     def limits(self, values: dict[str, Any], robot: RobotModel, period: float) -> dict[str, Any]:
         """Return the values within the limits of a robot."""

@@ -364,6 +364,18 @@ def test_the_recording_is_kept_and_analysing_again_is_another_attempt(analyze, f
     recording.close()
 
 
+def test_what_a_killed_analysis_left_is_no_part_of_the_next(analyze, foreign, tmp_path):
+    bag = passing(foreign(), seconds=20).close()
+    _, first, _ = analyze(bag)
+    left = load(tmp_path / "measured").folder.run(first["run_id"], 2).exports
+    left.mkdir(parents=True)
+    (left / "half.bag").write_text("written by a process that was killed")
+    _, again, _ = analyze(bag)
+    assert again["attempt"] == 2
+    assert not any("half.bag" in line for line in again["provenance"]["files"])
+    assert not left.exists()
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [

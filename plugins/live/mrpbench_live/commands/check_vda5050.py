@@ -17,7 +17,8 @@ SHOWN = 600
 def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
-        "A vehicle is asked, by orders and actions that do not move it; it has to be idle. A fleet control is listened"
+        "A vehicle is asked, by orders and actions that do not move it, unless --drive says where it may drive; it has"
+        " to be idle. A fleet control is listened"
         " to while it works. Exit code: 0 no rule is broken, 1 some are, 2 the party cannot be reached."
     )
     parser.add_argument("party", choices=("vehicle", "control"), help="who is checked")
@@ -26,6 +27,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--vehicle", metavar="MANUFACTURER/SERIAL", help="the vehicle that is asked")
     parser.add_argument(
         "--topics", default="", metavar="PREFIX", help="what topics begin with (default: uagv/v2 or vda5050/v3)"
+    )
+    parser.add_argument(
+        "--drive",
+        metavar="X,Y",
+        help="where the vehicle may drive straight, and back, to ask about corridors and zones",
     )
     parser.add_argument(
         "--seconds", type=float, metavar="S", help="how long to listen to a control (60), or to wait for an answer (5)"
@@ -43,12 +49,24 @@ def run(arguments: argparse.Namespace) -> int:
         if not slash or not serial:
             raise InputError("no vehicle is named", hint="--vehicle MANUFACTURER/SERIAL")
         patience = arguments.seconds or 5.0
-        report = VehicleCheck(arguments.url, version, topics, manufacturer, serial, patience).run()
+        drive = _place(arguments.drive)
+        report = VehicleCheck(arguments.url, version, topics, manufacturer, serial, patience, drive).run()
     if arguments.json:
         print_json({name: vars_of(finding) for name, finding in report.findings.items()})
     else:
         _print(report)
     return int(report.broken)
+
+
+def _place(text: str | None) -> tuple[float, float] | None:
+    """Read `X,Y` in metres."""
+    if text is None:
+        return None
+    try:
+        x, y = map(float, text.split(","))
+    except ValueError:
+        raise InputError(f"--drive {text}: expected two numbers in metres", hint="--drive 4.5,2.5") from None
+    return x, y
 
 
 def vars_of(finding: object) -> dict[str, object]:

@@ -8,6 +8,7 @@ import attrs
 import numpy as np
 
 from mrpbench_core.store.recording import Recording
+from mrpbench_live.commands.near_misses import near_misses
 
 _CAUSES = (
     ("node_traversed", ""),
@@ -24,25 +25,29 @@ class LoadReport:
     """The steps of a load, and the robots that never drove."""
 
     COLUMNS: ClassVar[Sequence[str]] = (
-        *("offered/h", "done/h", "open", "starved", "stuck", "contacts"),
+        *("offered/h", "done/h", "open", "starved", "stuck", "contacts", "near"),
         *("order_p50_s", "order_p95_s", "order_p99_s", "done_p95_s", "cpu", "memory_MB", "kept_up"),
     )
 
     steps: list[dict[str, Any]]
-    """As the events `load_step` have them, with the contacts of each."""
+    """As the events `load_step` have them, with the contacts and near misses of each."""
     silent: list[str]
     """One line for each robot that never passed a node."""
 
     @classmethod
     def of(cls, recording: Recording) -> "LoadReport":
         """Read a recording."""
-        time, kind, robot, detail = (
+        stamp, kind, robot, detail = (
             recording.channels[f"event_{name}"]().tolist() for name in ("time", "kind", "robot", "detail")
         )
-        contacts = np.array([at for at, what in zip(time, kind, strict=True) if what == "contact"])
+        contacts = np.array([when for when, what in zip(stamp, kind, strict=True) if what == "contact"])
+        moved, touched = ("time", "truth", "level"), ("contact_time", "contact")
+        at, pose, level, *touches = (recording.channels[name]() for name in (*moved, *touched))
+        near = near_misses(at, pose, level, recording.first_context().fleet.robots, *touches)
         steps = [json.loads(text) for what, text in zip(kind, detail, strict=True) if what == "load_step"]
         for step in steps:
-            step["contacts"] = int(((contacts >= step["begin"]) & (contacts < step["end"])).sum())
+            for name, times in (("contacts", contacts), ("near", near)):
+                step[name] = int(((times >= step["begin"]) & (times < step["end"])).sum())
         robots = recording.channels["truth"]().shape[1]
         events = list(zip(kind, robot, detail, strict=True))
         lines = (_silence(number, [it for it in events if it[1] == number]) for number in range(robots))
@@ -52,7 +57,8 @@ class LoadReport:
         """Return a row for each step."""
         return [
             [
-                *(step[key] for key in ("offered_per_hour", "done_per_hour", "open", "starved", "stuck", "contacts")),
+                *(step[key] for key in ("offered_per_hour", "done_per_hour", "open")),
+                *(step[key] for key in ("starved", "stuck", "contacts", "near")),
                 *(step["order_s"] or [None] * 3),
                 (step["done_s"] or [None] * 3)[1],
                 step["cpu"],

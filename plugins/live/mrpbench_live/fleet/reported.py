@@ -51,7 +51,11 @@ class OutsideRobots(ABC):
         """Yield the last report of each robot that has one: its index, x, y (metres), yaw (radians), speed (m/s)."""
 
     def route(self, robot: int) -> Float:  # noqa: ARG002
-        """Return places f8[k,2] (metres) along which a robot drives, from one that it has passed; none if unknown."""
+        """Return places f8[k,2] (metres) along which a robot drives, none if unknown.
+
+        They begin with the last one that it had passed when this was asked before: it is asked after each report of a
+        new place, and reports can be missing.
+        """
         return np.empty((0, 2))
 
     def twist(self) -> Float | None:

@@ -1,17 +1,15 @@
 """Where a vehicle may be: within the corridors of its edges, and outside of BLOCKED zones (6.1.5, 6.4.1)."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from mrpbench_live.fleet.regions import placed
 from mrpbench_live.vda5050.condition import Here
 from mrpbench_live.vda5050.corridors import is_outside, of_contour
+from mrpbench_live.vda5050.errors import Errors
 from mrpbench_live.vda5050.orders import Edge, Node
 from mrpbench_live.vda5050.track import Track
-
-Report = Callable[[str, str, Mapping[str, str]], None]
-"""Called with the type of an error in 3.0, one line about it, and what it refers to; its level is CRITICAL."""
 
 
 class Bounds:
@@ -19,12 +17,11 @@ class Bounds:
 
     Args:
         track: its path.
-        report: makes the vehicle report an error.
-        correct: called with the type of an error that is over.
+        errors: that it reports.
     """
 
-    def __init__(self, track: Track, report: Report, correct: Callable[[str], None]) -> None:
-        self._track, self._report, self._correct = track, report, correct
+    def __init__(self, track: Track, errors: Errors) -> None:
+        self._track, self._errors = track, errors
         self.halted = False
         """The vehicle was where it may not be, and stands until it has another order."""
         self._barrier: int | None = None
@@ -35,7 +32,7 @@ class Bounds:
     def resume(self) -> None:
         """Let the vehicle drive again, which has no order any more, or another one."""
         self.halted = False
-        self._correct("OUTSIDE_OF_CORRIDOR")
+        self._errors.correct("OUTSIDE_OF_CORRIDOR")
 
     def look_ahead(self, nodes: Sequence[Node]) -> None:
         """Find out whether the path to some nodes, which may be older than a zone, enters one; if so, report it."""
@@ -43,7 +40,7 @@ class Bounds:
         node = next((node for node in nodes if barrier is not None and node.mark > barrier), None)
         if node is not None:
             what = f"a BLOCKED zone is on the way to node {node.id!r}"
-            self._report("NODE_UNREACHABLE", what, {"nodeId": node.id})
+            self._errors.restrict("NODE_UNREACHABLE", what, {"nodeId": node.id})
 
     def limit(self, moves: int) -> int:
         """Return how many moves the vehicle may make, if its order allows so many."""
@@ -59,11 +56,11 @@ class Bounds:
                 name = str(edge.message["edgeId"])
                 self.halted = True
                 what = f"the vehicle is outside of the corridor of {name!r}"
-                self._report("OUTSIDE_OF_CORRIDOR", what, {"edgeId": name})
+                self._errors.restrict("OUTSIDE_OF_CORRIDOR", what, {"edgeId": name})
         before, self._zone = self._zone, self._track.zones.violated(here)
         if self._zone is not None and before is None:
             self.halted = True
             what = f"the vehicle is in the BLOCKED zone {self._zone!r}"
-            self._report("BLOCKED_ZONE_VIOLATION", what, {"zoneId": self._zone})
+            self._errors.restrict("BLOCKED_ZONE_VIOLATION", what, {"zoneId": self._zone})
         elif self._zone is None and before is not None:
-            self._correct("BLOCKED_ZONE_VIOLATION")
+            self._errors.correct("BLOCKED_ZONE_VIOLATION")

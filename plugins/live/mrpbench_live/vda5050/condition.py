@@ -1,6 +1,4 @@
-"""Where a vehicle is and how fast, and the errors that it reports."""
-
-from collections.abc import Mapping
+"""Where a vehicle is, and how fast."""
 
 import attrs
 
@@ -18,15 +16,3 @@ class Here:
     gave_up: bool
     """It cannot drive any more."""
     velocity: tuple[float, float, float] = (0.0, 0.0, 0.0)
-
-
-@attrs.frozen(kw_only=True)
-class Error:
-    """An error that a vehicle reports."""
-
-    type: str
-    level: str
-    description: str
-    references: Mapping[str, str]
-    until: str
-    """What ends it."""

@@ -22,7 +22,9 @@ SCOPES: Mapping[str, tuple[str, ...]] = {
     "waitForTrigger": ("NODE",),
 }
 """In the words of 3.0."""
-ZONE_SCOPES: Mapping[str, tuple[str, ...]] = {"enableZoneSet": ("INSTANT",), "deleteZoneSet": ("INSTANT",)}
+ZONE_SCOPES: Mapping[str, tuple[str, ...]] = dict.fromkeys(
+    ("downloadZoneSet", "enableZoneSet", "deleteZoneSet"), ("INSTANT",)
+)
 """What vehicles know besides where zones exist."""
 
 

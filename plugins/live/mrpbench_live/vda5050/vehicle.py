@@ -11,8 +11,9 @@ from mrpbench_live.vda5050 import orders
 from mrpbench_live.vda5050.actions import STANDING, Action, ActionQueue
 from mrpbench_live.vda5050.battery import Battery
 from mrpbench_live.vda5050.bounds import Bounds
-from mrpbench_live.vda5050.condition import Error, Here
+from mrpbench_live.vda5050.condition import Here
 from mrpbench_live.vda5050.corridors import check_corridors
+from mrpbench_live.vda5050.errors import UNTIL_NEXT_ORDER, UNTIL_NEXT_ZONE_SET, Errors
 from mrpbench_live.vda5050.names import Names
 from mrpbench_live.vda5050.orders import Edge, Node, RefusedError
 from mrpbench_live.vda5050.scopes import scopes_of
@@ -24,9 +25,6 @@ NEW_BASE = 3.0
 """Metres before the end of the base at which a vehicle asks for more, if there is a horizon."""
 AT_ONCE = "startCharging", "stopCharging"
 """Actions that take no time."""
-UNTIL_NEXT_ORDER, UNTIL_NEXT_INSTANT_ACTION, UNTIL_AVAILABLE = "order", "instantAction", "available"
-UNTIL_NEXT_ZONE_SET, UNTIL_CORRECTED = "zoneSet", "corrected"
-"""What ends an error."""
 
 
 class Vehicle:
@@ -57,7 +55,7 @@ class Vehicle:
         self.actions: dict[str, Action] = {}
         """Of the order, by id."""
         self.instant: dict[str, Action] = {}
-        self.errors: list[Error] = []
+        self.errors = Errors(names, note, self._change)
         self.paused, self.charging, self.new_base = False, False, False
         self.load: str | None = None
         self.charge = battery.initial
@@ -66,13 +64,16 @@ class Vehicle:
         self.pause: Action | None = None
         """The instant action that ends when the paused vehicle stands."""
         self._cancel: Action | None = None
-        self._cancelled = self._has_horizon = False
-        self._bounds = Bounds(track, self._out_of_bounds, self._correct)
+        self._cancelled = self._has_horizon = self._restless = False
+        self._bounds = Bounds(track, self.errors)
         self.zones = track.zones
         self.queue = ActionQueue()
         """The actions of the order that were triggered."""
         self.changed = True
         """Something has happened of which a state must tell."""
+
+    def _change(self) -> None:
+        self.changed = True
 
     # Orders
 
@@ -85,7 +86,7 @@ class Vehicle:
             orders.check_structure(message)
             self._accept(message)
         except RefusedError as refusal:
-            self.refuse(refusal, UNTIL_NEXT_ORDER)
+            self.errors.refuse(refusal, UNTIL_NEXT_ORDER)
 
     def _accept(self, message: Mapping[str, Any]) -> None:
         same = self.order is not None and message["orderId"] == self.order["orderId"]
@@ -108,9 +109,10 @@ class Vehicle:
         else:
             self._begin(message, nodes, edges)
         self.order = message
-        self.errors = [error for error in self.errors if error.until != UNTIL_NEXT_ORDER]
+        self.errors.end(UNTIL_NEXT_ORDER)
         self.changed = True
         self._look_ahead()
+        self._drive()  # from this control period on
         self._note("order_accepted", f"{message['orderId']} {message['orderUpdateId']}")
 
     def _is_repetition(self, message: Mapping[str, Any]) -> bool:
@@ -209,10 +211,7 @@ class Vehicle:
     @property
     def restless(self) -> bool:
         """True if something may happen to the vehicle although it neither passes a node nor begins or ends to drive."""
-        waits = self.pause is not None and not self.pause.ended
-        edge = self._edge
-        busy = bool(self.queue) or self._cancel is not None or self._has_horizon
-        return self.changed or waits or busy or bool(self.zones) or (edge is not None and edge.corridor is not None)
+        return self.changed or self._restless
 
     def advance(self, here: Here) -> None:
         """Go on to another time: traverse nodes, perform actions, and decide how far the vehicle may drive."""
@@ -228,6 +227,10 @@ class Vehicle:
         self._perform(here)
         self._finish(here)
         self._drive()
+        waits = self.pause is not None and not self.pause.ended
+        busy = bool(self.queue) or self._cancel is not None or self._has_horizon
+        edge = self._edge
+        self._restless = waits or busy or bool(self.zones) or (edge is not None and edge.corridor is not None)
 
     def _may_traverse(self, node: Node) -> bool:
         """A vehicle that waits at a node counts it only once; one that is cancelled stops where its path ends."""
@@ -332,38 +335,37 @@ class Vehicle:
         on_edge = self.edges and self.edges[0].released and self._cancel is None
         return self.edges[0] if on_edge else None
 
-    def take_zones(self, message: Any, fault: str | None) -> None:
-        """Keep a zone set, or refuse it; `fault`: what is wrong with the message by its schema."""
+    def take_zones(self, message: Any, fault: str | None) -> str | None:
+        """Keep a zone set, or refuse it and return why; `fault`: what is wrong with the message by its schema."""
         try:
             if fault is not None:
                 raise RefusedError("VALIDATION_FAILURE", fault, {"topic": "zoneSet"})
             self.zones.add(message)
         except RefusedError as refusal:
-            self.refuse(refusal, UNTIL_NEXT_ZONE_SET)
-            return
+            self.errors.refuse(refusal, UNTIL_NEXT_ZONE_SET)
+            return str(refusal)
         self.zones_changed()
         self._note("zone_set", str(message["zoneSet"]["zoneSetId"]))
+        return None
+
+    def known_zone_set(self, name: str) -> str | None:
+        """Report that there is a zone set of a name already, and return that; None: there is none."""
+        try:
+            self.zones.check_new(name)
+        except RefusedError as refusal:
+            self.errors.refuse(refusal, UNTIL_NEXT_ZONE_SET)
+            return str(refusal)
+        return None
 
     def zones_changed(self) -> None:
         """Note that zone sets were added, enabled or deleted, which ends errors about them."""
-        self.errors = [error for error in self.errors if error.until != UNTIL_NEXT_ZONE_SET]
+        self.errors.end(UNTIL_NEXT_ZONE_SET)
         self.changed = True
         self._look_ahead()
         self._drive()
 
     def _look_ahead(self) -> None:
         self._bounds.look_ahead(() if self._cancel is not None else self.nodes)
-
-    def _out_of_bounds(self, kind: str, what: str, refers: Mapping[str, str]) -> None:
-        until = UNTIL_NEXT_ORDER if kind == "NODE_UNREACHABLE" else UNTIL_CORRECTED
-        self._report(kind, "CRITICAL", what, refers, until)
-        self._note("out_of_bounds", f"{self.errors[-1].type}: {what}")
-
-    def _correct(self, kind: str) -> None:
-        """End an error."""
-        name = self._names.error(kind, "CRITICAL")[0]
-        self.errors, before = [error for error in self.errors if error.type != name], len(self.errors)
-        self.changed |= len(self.errors) < before
 
     def _lay(self, edges: list[Edge], ways: Sequence[tuple[int, ...]]) -> None:
         """Note the lines of edges that have corridors."""
@@ -401,24 +403,12 @@ class Vehicle:
             if not action.ended:
                 action.status, action.result = "FAILED", result
 
-    def refuse(self, refusal: RefusedError, until: str) -> None:
-        """Report why something is refused."""
-        until = UNTIL_AVAILABLE if refusal.kind == "MOBILE_ROBOT_NOT_AVAILABLE" else until
-        self._report(refusal.kind, refusal.level, str(refusal), refusal.references, until)
-        self._note("refused", f"{self.errors[-1].type}: {refusal}")
-
-    def _report(self, kind: str, level: str, description: str, refers: Mapping[str, str], until: str) -> None:
-        name, level = self._names.error(kind, level)
-        error = Error(type=name, level=level, description=description, references=refers, until=until)
-        self.errors = [other for other in self.errors if other.type != name][-15:] + [error]
-        self.changed = True
-
     def _break_down(self) -> None:
         """The vehicle cannot drive any more: it is out of the fleet control's hands, and has no order (6.6.6)."""
         self.available = False
         node = self.nodes[0].id if self.nodes else self.last_node
         refers = {"nodeId": node}
-        self._report("NODE_UNREACHABLE", "CRITICAL", "the vehicle is stuck and gave up", refers, UNTIL_NEXT_ORDER)
+        self.errors.report("NODE_UNREACHABLE", "CRITICAL", "the vehicle is stuck and gave up", refers, UNTIL_NEXT_ORDER)
         self._drop_actions("the vehicle gave up")
         self._track.shorten(self._track.released)
         self._cancel, self.nodes, self.edges = None, [], []

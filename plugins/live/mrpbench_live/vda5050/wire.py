@@ -18,7 +18,9 @@ PASSWORD = "MRPBENCH_MQTT_PASSWORD"  # noqa: S105 - the name of a variable
 RETRY_S, PATIENCE_S, KEEPALIVE_S = 0.5, 2.0, 30
 """Seconds between attempts to connect again; for a TCP connection; and until the broker takes a client for lost."""
 MISC_S = 1.0
-"""Seconds between looks at keepalives."""
+"""Seconds between looks at the keepalive of a client."""
+CONNECTING_S = 0.01
+"""Seconds at a time in which clients connect again: a thousand of them take seconds."""
 LEAST_S = 0.01
 """Seconds for which messages that wait are received although it is time for something else."""
 Take = Callable[[str, bytes], None]
@@ -89,6 +91,11 @@ class Client:
         self.mqtt.on_socket_open = lambda _client, _data, sock: wire.opened(self, sock)
         self.mqtt.on_socket_close = lambda _client, _data, sock: wire.closed(self, sock)
 
+    @property
+    def lost(self) -> bool:
+        """True if there is no connection, and none is being made."""
+        return not self.connected and not self.ended and self.mqtt.socket() is None
+
     def publish(self, topic: str, payload: bytes, qos: int = 0, retain: bool = False) -> bool:
         """Send a message; tell whether there is a connection to send it by."""
         if self.connected:
@@ -128,7 +135,9 @@ class Wire:
         self._clients: list[Client] = []
         self._waiting: set[Client] = set()
         """Those whose sockets could not take all that there is to send."""
-        self._retry_at = self._misc_at = 0.0
+        self._retry_at, self._lost = 0.0, list[Client]()
+        self._began, self._looks = time.monotonic(), 0
+        """Since when, and how often, keepalives were looked at."""
         self._turn = 0
 
     def new(self, name: str) -> Any:
@@ -179,9 +188,10 @@ class Wire:
             ready = self._selector.select(max(0.0, min(until - now, MISC_S)))
             if not ready and time.monotonic() >= until:
                 return
-            self._turn += 1  # others come first the next time
+            begin = self._turn
             for index in range(len(ready)):
-                key, mask = ready[(index + self._turn) % len(ready)]
+                key, mask = ready[(begin + index) % len(ready)]
+                self._turn += 1  # others come first the next time
                 client = key.data
                 if mask & selectors.EVENT_READ:
                     client.mqtt.loop_read()
@@ -200,23 +210,28 @@ class Wire:
             (self._waiting.add if waits else self._waiting.discard)(client)
 
     def _keep(self, now: float) -> None:
-        """Keep connections alive, and connect again what was lost."""
-        if now >= self._misc_at:
-            self._misc_at = now + MISC_S
-            for client in self._clients:
-                client.mqtt.loop_misc()
+        """Keep connections alive, and connect again what was lost, a few clients at a time."""
+        looks = int((now - self._began) / MISC_S * len(self._clients))
+        for look in range(max(self._looks, looks - len(self._clients)), looks):
+            self._clients[look % len(self._clients)].mqtt.loop_misc()
+        self._looks = looks
         if now >= self._retry_at:
             self._retry_at = now + RETRY_S
-            for client in self._clients:
-                if not client.connected and not client.ended and client.mqtt.socket() is None:
-                    try:
-                        client.mqtt.reconnect()
-                    except OSError:
-                        return  # all have the same broker
+            self._lost = [client for client in self._clients if client.lost]
+        while self._lost:
+            client = self._lost.pop()
+            try:
+                if client.lost:
+                    client.mqtt.reconnect()
+            except OSError:
+                self._lost.clear()  # all have the same broker
+            if time.monotonic() >= now + CONNECTING_S:
+                return
 
     def cut(self, seconds: float) -> None:
         """Break all connections without a word, and do not connect again for so many seconds."""
         self._retry_at = time.monotonic() + seconds
+        self._lost.clear()
         for client in self._clients:
             if (sock := client.mqtt.socket()) is not None:
                 sock.shutdown(socket.SHUT_RDWR)

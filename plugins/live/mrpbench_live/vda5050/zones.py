@@ -81,9 +81,7 @@ class ZoneSets:
         """
         given = message["zoneSet"]
         refers = {"topic": "zoneSet", "zoneSetId": given["zoneSetId"]}
-        if given["zoneSetId"] in self._sets:
-            what = f"there is a zone set {given['zoneSetId']!r} already"
-            raise RefusedError("DUPLICATE_ZONE_SET", what, refers)
+        self.check_new(given["zoneSetId"])
         level = self._site.level_of.get(given["mapId"])
         if level is None:
             what = f"no map is called {given['mapId']!r}, only {', '.join(sorted(self._site.levels))}"
@@ -92,6 +90,16 @@ class ZoneSets:
         if len({zone.id for zone in zones}) < len(zones):
             raise RefusedError("VALIDATION_FAILURE", "two zones have the same zoneId", refers)
         self._sets[given["zoneSetId"]] = ZoneSet(id=given["zoneSetId"], level=level, zones=zones)
+
+    def check_new(self, name: str) -> None:
+        """Check that there is no zone set of a name yet.
+
+        Raises:
+            RefusedError: there is one.
+        """
+        if name in self._sets:
+            refers = {"topic": "zoneSet", "zoneSetId": name}
+            raise RefusedError("DUPLICATE_ZONE_SET", f"there is a zone set {name!r} already", refers)
 
     def enable(self, name: Any) -> str | None:
         """Enable a zone set, and no other one of its map; return why that is impossible, or None."""

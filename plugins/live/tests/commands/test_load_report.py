@@ -1,10 +1,14 @@
 """The report of a load, from the events of a recording."""
 
 import json
+from types import SimpleNamespace
 
 import numpy as np
 from mrpbench_live.commands.load_report import LoadReport
 
+from mrpbench_core.api import Fleet, RobotModel
+
+BOX = [(0.2, 0.15), (-0.2, 0.15), (-0.2, -0.15), (0.2, -0.15)]
 STEP = {
     "begin": 0.0,
     "end": 180.0,
@@ -30,7 +34,17 @@ class Recorded:
             f"event_{name}": lambda column=column: np.array(column)
             for name, column in zip(("time", "kind", "robot", "detail"), columns, strict=True)
         }
-        self.channels["truth"] = lambda: np.zeros((1, robots, 3))
+        self._fleet = Fleet(robots=(RobotModel(name="box", footprint=BOX, max_speed=1.0, max_turn_rate=1.0),) * robots)
+        self.channels |= {
+            "time": lambda: np.zeros(1),
+            "truth": lambda: np.zeros((1, robots, 3)),
+            "level": lambda: np.zeros((1, robots), np.int16),
+            "contact_time": lambda: np.zeros(0),
+            "contact": lambda: np.zeros((0, 2), np.int32),
+        }
+
+    def first_context(self):
+        return SimpleNamespace(fleet=self._fleet)
 
 
 def steps(*kept):
@@ -46,7 +60,7 @@ def test_the_knee_is_the_last_rate_that_is_kept_up():
     report = LoadReport.of(Recorded(0, steps(True, True, False) + contacts))
     assert report.answer() == "it keeps up with 400 transports per hour, and falls behind at 800"
     assert [row[5] for row in report.rows()] == [2, 1, 0]
-    assert report.rows()[0][6:] == [1.0, 2.0, 3.0, None, None, 25, "yes"]
+    assert report.rows()[0][6:] == [0, 1.0, 2.0, 3.0, None, None, 25, "yes"]
     assert len(report.rows()[0]) == len(LoadReport.COLUMNS)
     assert "the first rate" in LoadReport.of(Recorded(0, steps(False))).answer()
     assert "the last rate" in LoadReport.of(Recorded(0, steps(True))).answer()

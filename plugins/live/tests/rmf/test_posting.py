@@ -53,26 +53,26 @@ def test_waypoints_are_where_a_robot_is_and_the_ends_of_its_moves():
 def test_who_comes_later_waits_until_the_other_is_out_of_the_way():
     asked, plan = problem(0, 4), Plan(paths=[FIRST, SECOND])
     found = blockers_of(asked, plan, waypoints_of(asked, plan, NOTHING), NOTHING, NOTHING)
-    assert found == {(1, 0): {0: 2}}  # at the vertex after that which they share
+    assert found == [{}, {0: {0: 2}}]  # at the vertex after that which they share
 
 
 def test_wide_robots_have_to_be_farther_away():
     asked = problem(0, 4, radius=0.6)
     plan = Plan(paths=[FIRST, SECOND])
     found = blockers_of(asked, plan, waypoints_of(asked, plan, NOTHING), NOTHING, NOTHING)
-    assert found == {(1, 0): {0: 3}}  # 1 m from the shared vertex is less than 1.2 m
+    assert found == [{}, {0: {0: 3}}]  # 1 m from the shared vertex is less than 1.2 m
 
 
 def test_blockers_are_counted_from_where_a_plan_begins():
     asked, plan = problem(0, 4), Plan(paths=[FIRST, SECOND])
     reached = np.array([1, 0])
-    assert blockers_of(asked, plan, waypoints_of(asked, plan, reached), reached, reached) == {(1, 0): {0: 1}}
+    assert blockers_of(asked, plan, waypoints_of(asked, plan, reached), reached, reached) == [{}, {0: {0: 1}}]
 
 
 def test_what_is_released_has_no_blockers():
     asked, plan = problem(0, 4), Plan(paths=[FIRST, SECOND])
     waypoints = waypoints_of(asked, plan, NOTHING)
-    assert blockers_of(asked, plan, waypoints, NOTHING, np.array([0, 3])) == {}
+    assert blockers_of(asked, plan, waypoints, NOTHING, np.array([0, 3])) == [{}, {}]
 
 
 def test_a_rotation_is_refused():
@@ -96,7 +96,7 @@ def test_blockers_are_those_of_the_order_of_the_plan_edge_by_edge(seed):
     waypoints = waypoints_of(asked, plan, begun)
     moves = moves_of(asked, plan)
     order = type2_edges(asked, moves, resource_edges(asked, occupations_of(asked, moves)))
-    place, expected = SQUARE.position, {}
+    place, expected = SQUARE.position, [{} for _ in range(robots)]
     for before, after, completed in zip(*(column.tolist() for column in order), strict=True):
         robot, other, segment = moves.robot[after], moves.robot[before], moves.segment[after]
         ways = waypoints[other]
@@ -108,7 +108,7 @@ def test_blockers_are_those_of_the_order_of_the_plan_edge_by_edge(seed):
         ]
         required = enough[0] if enough else len(ways.vertex) - 1
         if segment >= begun[robot] and required:
-            others = expected.setdefault((robot, waypoints[robot].last(segment)), {})
+            others = expected[robot].setdefault(waypoints[robot].last(segment), {})
             others[other] = max(others.get(other, 0), required)
     assert blockers_of(asked, plan, waypoints, begun, NOTHING.repeat(2)) == expected
 

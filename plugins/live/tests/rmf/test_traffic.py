@@ -1,7 +1,9 @@
 """Where robots are to go, by the destinations that are posted for them."""
 
+import time
 from types import SimpleNamespace
 
+import attrs
 import numpy as np
 import pytest
 
@@ -9,7 +11,7 @@ pytest.importorskip("cyclonedds", reason="mrpbench-live[rmf] is not installed")
 from mrpbench_live.rmf.messages import messages_of
 from mrpbench_live.rmf.traffic.traffic import Traffic
 
-from mrpbench_core.api import Roadmap
+from mrpbench_core.api import Plan, Problem, Roadmap, RobotPath
 
 P = "rmf_prototype_msgs/"
 ROADMAP = Roadmap(
@@ -36,6 +38,9 @@ class Silent:
 
     def publish(self, topic, message):
         self.sent.append((topic, message))
+
+    def serve(self, due):
+        pass
 
 
 class Post:
@@ -116,3 +121,41 @@ def test_a_plan_does_not_wait_for_all_the_destinations_that_come(post):
         post.send(step % 2, step, 2.0 - step % 2, 0.0, now=0.1 * step)
         reasons.append(bool(post.traffic.replan(0.1 * step)))
     assert reasons == [False] * 5 + [True] * 3
+
+
+def test_only_robots_with_another_plan_are_sent_one(post):
+    traffic = post.traffic
+    roadmap = attrs.evolve(ROADMAP, position=[(float(i), 0.0) for i in range(20)], level=[0] * 20)
+    edges = [(i, i + 1) for i in range(19)]
+    roadmap = attrs.evolve(roadmap, heading=np.full(20, np.nan), edges=edges, duration=[[1] * 19])
+    nothing = np.zeros(3, np.int64)
+
+    def plan(*lengths):
+        starts = [0, 6, 12]
+        problem = Problem(
+            roadmap=roadmap, profile=nothing, radius=[0.3] * 3, start=starts, ready=nothing, goals=((),) * 3
+        )
+        ticks = [np.arange(length) for length in lengths]
+        paths = [RobotPath(edge=start + it, enter=it, leave=it + 1) for start, it in zip(starts, ticks, strict=True)]
+        return problem, Plan(paths=paths)
+
+    def send(problem, made, reached):
+        traffic.post(problem, traffic.compose(problem, made, reached, reached, reached))
+        traffic.serve(time.monotonic() + 20)
+        sent = [topic for topic, _ in post.wire.sent if topic.endswith("/plan")]
+        post.wire.sent.clear()
+        return sent
+
+    assert send(*plan(5, 5, 5), nothing) == ["a/plan", "b/plan", "c/plan"]
+    traffic.participants.robots[0].progress = traffic.posted[0].key, 3
+    reached = traffic.reached(nothing.astype(np.int32))
+    assert reached.tolist() == [3, 0, 0]
+    assert send(*plan(5, 5, 3), reached) == ["c/plan"]
+    assert traffic.reached(reached.astype(np.int32)).tolist() == [3, 0, 0]
+    assert traffic.places(0)[:, 0].tolist() == [0, 1, 2, 3, 4, 5]
+    assert traffic.places(0)[:, 0].tolist() == [3, 4, 5]  # from where it was when that was asked before
+    assert send(*plan(4, 5, 3), reached) == ["a/plan"]
+    assert traffic.places(0)[:, 0].tolist() == [3, 4]
+    assert traffic.places(1)[:, 0].tolist() == [6, 7, 8, 9, 10, 11]
+    traffic.unplanned[1] = "b asks for another plan"
+    assert send(*plan(4, 5, 3), reached) == ["b/plan"]

@@ -61,6 +61,15 @@ class Pair:
         return [node["nodePosition"]["x"] for node in nodes], sum(node["released"] for node in nodes)
 
 
+def test_the_way_of_a_vehicle_that_is_heard_of_again_begins_where_it_was_heard_of_last(bench):
+    pair = Pair(bench, [0, 1, 2, 3, 4])
+    pair.step(4)
+    assert pair.sender.places()[:, 0].tolist() == [0, 1, 2, 3, 4]
+    pair.drive(3)  # none of which was asked for
+    assert pair.sender.places()[:, 0].tolist() == [0, 1, 2, 3, 4]
+    assert pair.sender.places()[:, 0].tolist() == [3, 4]
+
+
 def test_a_base_grows_as_the_dispatcher_releases(bench):
     pair = Pair(bench, [0, 1, 2, 3, 4])
     pair.step(1)

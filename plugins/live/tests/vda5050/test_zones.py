@@ -1,6 +1,12 @@
 """Zone sets of 3.0: how vehicles get them, and what they do in zones."""
 
+import functools
+import hashlib
+import http.server
 import json
+import socket
+import threading
+import time
 
 import pytest
 from mrpbench_live.vda5050.condition import Here
@@ -176,10 +182,95 @@ def test_the_factsheet_announces_the_zones_that_are_supported(bench3):
     sheet = factsheet_of(bench3.site.fleet.robots[0], bench3.names, (0.1, 1.0, 0.0), False)
     assert sheet["typeSpecification"]["supportedZones"] == ["BLOCKED", "SPEED_LIMIT"]
     actions = {it["actionType"] for it in sheet["protocolFeatures"]["mobileRobotActions"]}
-    assert {"enableZoneSet", "deleteZoneSet"} <= actions
+    assert {"downloadZoneSet", "enableZoneSet", "deleteZoneSet"} <= actions
 
 
 def test_there_are_no_zones_in_2_1(bench):
     state = bench.act(bench.action("enableZoneSet", "e1", "NONE", zoneSetId="set"))
     assert ("zoneSets" in state) == bench.names.zones
     assert bool(errors(state)) == (not bench.names.zones)
+
+
+@pytest.fixture
+def files(tmp_path):
+    """A server of files on this machine: its address, and its folder."""
+
+    class Quiet(http.server.SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+
+    handler = functools.partial(Quiet, directory=str(tmp_path))
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_port}/", tmp_path
+    server.shutdown()
+    server.server_close()
+
+
+def download(bench, key, **parameters):
+    """Let a vehicle fetch a zone set; return its first and its last state, and the last of the action."""
+    first = bench.act(bench.action("downloadZoneSet", key, "NONE", **parameters))
+    until = time.monotonic() + 10
+    while bench.instant.restless and time.monotonic() < until:
+        time.sleep(0.01)
+        bench.step(0.0)
+    state = bench.step(0.0)
+    (action,) = [it for it in state["instantActionStates"] if it["actionId"] == key]
+    return first, state, action
+
+
+def test_a_zone_set_is_downloaded_once_and_then_enabled(bench3, files):
+    url, folder = files
+    content = json.dumps({"zoneSet": zone_set(zone(), id="far")["zoneSet"]})  # without a header
+    (folder / "far.json").write_text(content)
+    right = hashlib.sha256(content.encode()).hexdigest()
+    link = {"zoneSetId": "far", "zoneSetDownloadLink": url + "far.json"}
+    _, state, action = download(bench3, "d1", **link, zoneSetHash="0" * 64)
+    assert (action["actionStatus"], "SHA-256" in action["actionResult"], state["zoneSets"]) == ("FAILED", True, [])
+    _, state, action = download(bench3, "d2", **link, zoneSetHash=right)
+    assert action["actionStatus"] == "FINISHED"
+    assert state["zoneSets"] == [{"zoneSetId": "far", "mapId": "ground", "zoneSetStatus": "DISABLED"}]
+    assert errors(state) == []
+    _, state, action = download(bench3, "d3", **link)
+    assert (action["actionStatus"], errors(state)) == ("FAILED", ["DUPLICATE_ZONE_SET"])
+    assert enable(bench3, "far")[1] == "FINISHED"
+
+
+BAD_LINKS = {
+    "a file that is missing": ({"zoneSetDownloadLink": "none.json"}, "404"),
+    "a file that is no JSON": ({"zoneSetDownloadLink": "text"}, "not JSON"),
+    "another zone set": ({"zoneSetDownloadLink": "other.json"}, "is called 'other'"),
+    "a zone that is not supported": ({"zoneSetDownloadLink": "line.json"}, "LINE_GUIDED"),
+    "no link": ({"zoneSetDownloadLink": None}, "zoneSetDownloadLink"),
+    "a link to the disk of the vehicle": ({"zoneSetDownloadLink": "file:///etc/hostname"}, "no address"),
+}
+
+
+@pytest.mark.parametrize("case", BAD_LINKS)
+def test_a_download_that_fails_says_why_and_changes_no_zone_set(bench3, files, case):
+    url, folder = files
+    (folder / "text").write_text("zones")
+    (folder / "other.json").write_text(json.dumps(zone_set(zone(), id="other")))
+    (folder / "line.json").write_text(json.dumps(zone_set(zone("LINE_GUIDED"), id="far")))
+    given, why = BAD_LINKS[case]
+    link = given["zoneSetDownloadLink"]
+    parameters = {} if link is None else {"zoneSetDownloadLink": link if ":" in link else url + link}
+    _, state, action = download(bench3, "d1", zoneSetId="far", **parameters)
+    assert action["actionStatus"] == "FAILED"
+    assert why in action["actionResult"]
+    assert state["zoneSets"] == []
+
+
+def test_a_download_leaves_the_vehicle_at_work(bench3):
+    with socket.create_server(("127.0.0.1", 0)) as silent:
+        link = f"http://127.0.0.1:{silent.getsockname()[1]}/far.json"
+        state = bench3.act(bench3.action("downloadZoneSet", "d1", "NONE", zoneSetId="far", zoneSetDownloadLink=link))
+        assert [it["actionStatus"] for it in state["instantActionStates"]] == ["RUNNING"]
+        bench3.take(bench3.order([0, 1], base=2))
+        assert bench3.drive()["lastNodeId"] == "n1"
+        assert bench3.instant.restless
+    until = time.monotonic() + 10
+    while bench3.instant.restless and time.monotonic() < until:
+        time.sleep(0.01)
+        state = bench3.step(0.0)
+    assert [it["actionStatus"] for it in state["instantActionStates"]] == ["FAILED"]

@@ -33,6 +33,12 @@ def parameters_of(checker: str) -> frozenset[str]:
     return frozenset(name for kind in _KINDS.values() for name in kind.get(checker, ()))
 
 
+def several_in(server: Nav2Block) -> list[str]:
+    """Return a note for each kind of which a Nav2 controller server has several checkers."""
+    listed = [plugin_ids(server, kind) for kind in _KINDS]
+    return [f"{server.title}: of {', '.join(ids)} the first is used" for ids in listed if len(ids) > 1]
+
+
 def from_nav2(server: Nav2Block, options: type[attrs.AttrsInstance]) -> dict[str, Any]:
     """Return the names and parameters of the checkers of a Nav2 controller server, and `failure_tolerance`.
 
@@ -47,7 +53,7 @@ def from_nav2(server: Nav2Block, options: type[attrs.AttrsInstance]) -> dict[str
     chosen_checkers: dict[str, Any] = {"failure_tolerance": tolerance if tolerance >= 0 else float("inf")}  # as in Nav2
     for kind, checkers in _KINDS.items():
         block = server.within(plugin_ids(server, kind)[0])
-        chosen_checkers[kind] = block.take("plugin", str, next(iter(checkers))).rpartition("::")[2]
+        chosen_checkers[kind] = block.take("plugin", str, next(iter(checkers))).replace("/", "::").rpartition("::")[2]
         if chosen_checkers[kind] not in checkers:
             raise block.error(
                 f"{chosen_checkers[kind]!r} is not supported", "plugin", hint=f"supported: {', '.join(checkers)}"

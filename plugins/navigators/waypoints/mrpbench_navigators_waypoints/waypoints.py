@@ -19,7 +19,7 @@ from mrpbench_core.files.nav2_file import Nav2File
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.worlds.world import World
-from mrpbench_navigators_waypoints.checkers import from_nav2, parameters_of
+from mrpbench_navigators_waypoints.checkers import from_nav2, parameters_of, several_in
 from mrpbench_navigators_waypoints.controller_server import ControllerServer
 from mrpbench_navigators_waypoints.detours import Detours
 from mrpbench_navigators_waypoints.recoveries.back_up import BackUp
@@ -144,7 +144,8 @@ class Waypoints(Navigator):
 
         def read(namespace: str) -> tuple[dict[str, Any], tuple[str, ...]]:
             server = controller_server(file, namespace)
-            return from_nav2(server, type(self)), not_used(server)
+            several = (f"{nav2}: {note}" for note in several_in(server))
+            return from_nav2(server, type(self)), (*several, *not_used(server))
 
         return file.read("controller_server", self.namespace, read)
 

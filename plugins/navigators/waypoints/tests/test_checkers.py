@@ -18,7 +18,7 @@ controller_server:
     failure_tolerance: -1.0
     goal_checker_plugins: [precise, loose]
     progress_checker_plugins: [progress]
-    precise: {plugin: "nav2_controller::StoppedGoalChecker", xy_goal_tolerance: 0.15, path_length_tolerance: 1.0}
+    precise: {plugin: "nav2_controller/StoppedGoalChecker", xy_goal_tolerance: 0.15, path_length_tolerance: 1.0}
     loose: {plugin: "nav2_controller::AxisGoalChecker"}
     progress: {plugin: "nav2_controller::PoseProgressChecker", required_movement_angle: 0.3}
 """
@@ -127,6 +127,10 @@ def test_a_nav2_file_names_the_checkers(tmp_path):
     assert found["failure_tolerance"] == np.inf
     assert set(Waypoints().idle_options()) >= {"trans_stopped_velocity", "required_movement_angle"}
     assert "trans_stopped_velocity" not in Waypoints(nav2=file).idle_options()
+    notes = Waypoints(nav2=file).notes()
+    assert [note for note in notes if "first" in note] == [
+        f"{file}: controller_server: of precise, loose the first is used"
+    ]
 
 
 @pytest.mark.parametrize(

@@ -180,5 +180,5 @@ def _check_size(body: RobotBody, robot: RobotModel, file: Path) -> None:
             raise InputError(
                 f"{shape.part!r} stands out {worst:.3f} m beyond the footprint of {robot.name}",
                 file=file,
-                hint="planners rely on the footprint",
+                hint="planners rely on it; its origin is midway between the driven wheels",
             )

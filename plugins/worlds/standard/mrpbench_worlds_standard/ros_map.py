@@ -25,6 +25,8 @@ KEYS = ("image", "resolution", "origin", "occupied_thresh", "free_thresh", "nega
 MODES = ("trinary", "scale", "raw")
 WORDS = {"yes": True, "on": True, "no": False, "off": False}
 """Truth values that map_server reads besides those of YAML 1.2."""
+SAVED_AS_UNKNOWN = 205 / 255
+"""Lightness that map_saver writes for unknown cells; they are free if `free_thresh` is 0.25, its own default."""
 TOLERANCE = 1e-9
 """Rounding of a grey value, so that one that equals a threshold reaches it."""
 
@@ -73,10 +75,13 @@ class RosMap(WorldSource):
         x, y, *yaw = (value.number() for value in fields["origin"].items(least=2))
         image = self.image or self.file.parent / fields["image"].text()
         notes = [f"key {key!r} is not known and has no effect." for key in fields if key not in KEYS]
-        occupied, unknown = _classify(fields, read_image(image, fields.get("image", top)))
+        pixels = read_image(image, fields.get("image", top))
+        occupied, unknown = _classify(fields, pixels)
         blocked = occupied if self.unknown == "free" else occupied | unknown
         if not occupied.any():
             notes.append("no cell is occupied, so the map has no walls (image, mode, negate, occupied_thresh).")
+        elif (np.isclose(pixels.lightness, SAVED_AS_UNKNOWN)[pixels.tone] & ~occupied & ~unknown).any():
+            notes.append("cells of the grey 205, by which map_saver means unknown, are free (mode, free_thresh).")
         if blocked.all():
             notes.append("no cell is free (image, mode, negate, free_thresh; option unknown).")
         occupancy = Occupancy(blocked=blocked[::-1], resolution=size, origin=(x, y))

@@ -115,6 +115,14 @@ def test_pixels_that_are_not_opaque_are_unknown_in_every_mode(load, mode):
     assert blocked(load(values, text, mode="RGBA", unknown="free")) == [[False, False, False, True, False, False]]
 
 
+@pytest.mark.parametrize(("threshold", "free"), [("0.25", True), ("0.196", False)])
+def test_unknown_cells_of_map_saver_that_are_free_are_noted(load, threshold, free):
+    """50 / 255 = 0.19608 lies between the thresholds that ROS 1 and ROS 2 write beside the same grey value."""
+    world = load([[0, 205, 254]], YAML.replace("free_thresh: 0.25", f"free_thresh: {threshold}"))
+    assert blocked(world) == [[True, not free, False]]
+    assert [note.split(",")[0] for note in world.notes] == ["cells of the grey 205"] * free
+
+
 def test_a_map_without_walls_or_without_free_cells_is_noted(load):
     assert load([[0, 254]]).notes == ()
     walls, free = "no cell is occupied, so the map has no walls", "no cell is free"

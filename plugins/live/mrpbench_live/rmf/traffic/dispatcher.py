@@ -67,7 +67,7 @@ class _PlanServer(DispatcherSession):
         gone = np.zeros(len(problem), np.int64) if cut is None else cut.astype(np.int64)
         reached = np.maximum(self._reached - gone, 0)
         released = np.maximum(self._released - gone, problem.committed)
-        composed = self._traffic.compose(problem, plan, reached, released)
+        composed = self._traffic.compose(problem, plan, reached, released, reached + gone)
         self._session.adopt(problem, plan, cut)
         self._traffic.post(problem, composed)
         self._problem = problem

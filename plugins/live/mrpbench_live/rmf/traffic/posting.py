@@ -30,6 +30,10 @@ class Waypoints:
         return max(0, int(np.searchsorted(self.segments, segments, side="right")) - 1)
 
 
+Blockers = Mapping[int, Mapping[int, int]]
+"""Of one robot: by waypoint, the waypoint that each other robot must have reached before it departs."""
+
+
 @attrs.frozen
 class Posted:
     """A plan that a robot was sent."""
@@ -37,6 +41,7 @@ class Posted:
     key: PlanKey
     plan_id: Any
     waypoints: Waypoints
+    blockers: Blockers
 
 
 def waypoints_of(problem: Problem, plan: Plan, reached: Int) -> list[Waypoints]:
@@ -54,8 +59,8 @@ def waypoints_of(problem: Problem, plan: Plan, reached: Int) -> list[Waypoints]:
 
 def blockers_of(
     problem: Problem, plan: Plan, waypoints: Sequence[Waypoints], reached: Int, released: Int
-) -> dict[tuple[int, int], dict[int, int]]:
-    """Return the waypoint that each other robot must have reached before one departs: by (robot, waypoint), by robot.
+) -> Sequence[Blockers]:
+    """Return the blockers of each robot.
 
     The order is that of the plan, as in the dispatcher `adg`. Where one robot only has to be out of the other's way,
     the first waypoint is required at which it surely is: the reference executor knows no progress between waypoints.
@@ -84,9 +89,9 @@ def blockers_of(
     _drive_clear(problem, table, required, np.flatnonzero(~completed[open_to]), moves.tail[before], robot, other)
     waypoint = np.maximum(table.first_after(robot, segment + 1) - 1, 0)
     rows = np.stack([robot, waypoint, other, required], axis=1)[required > 0]
-    found: dict[tuple[int, int], dict[int, int]] = {}
+    found: list[dict[int, dict[int, int]]] = [{} for _ in waypoints]
     for departs, at, waits_for, until in rows[np.lexsort(rows.T[::-1])].tolist():  # the greatest is the last
-        found.setdefault((departs, at), {})[waits_for] = until
+        found[departs].setdefault(at, {})[waits_for] = until
     return found
 
 
@@ -139,7 +144,6 @@ def message_of(
     messages: Messages,
     problem: Problem,
     own: Posted,
-    blockers: Mapping[int, Mapping[int, int]],
     posted: Mapping[int, Posted],
     names: Sequence[str],
     start: Any,
@@ -150,7 +154,6 @@ def message_of(
         messages: the types.
         problem: that the plan solves.
         own: plan of the robot.
-        blockers: by waypoint, the waypoints that other robots must have reached.
         posted: the plans of all robots.
         names: of all robots.
         start: its time.
@@ -170,7 +173,7 @@ def message_of(
             f"{package}/Waypoint",
             position=problem.roadmap.position[vertex].tolist(),
             progress=float(index),
-            departure_blockers=[dependency(*it) for it in sorted(blockers.get(index, {}).items())],
+            departure_blockers=[dependency(*it) for it in sorted(own.blockers.get(index, {}).items())],
         )
         for index, vertex in enumerate(own.waypoints.vertex.tolist())
     ]

@@ -6,19 +6,19 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
 
+import attrs
 import numpy as np
 
 from mrpbench_core.api import Event, Float, Goals, Int, Int32, Plan, Problem
 from mrpbench_core.files.printing import printable
 from mrpbench_live.rmf.messages import CODE_TEMPORARILY_UNREACHABLE, Messages, plan_key, stamp
+from mrpbench_live.rmf.traffic.composing import Composed, compose
 from mrpbench_live.rmf.traffic.destinations import RefusedError, Wish, wish_of
 from mrpbench_live.rmf.traffic.participants import Participants
-from mrpbench_live.rmf.traffic.posting import Posted, Waypoints, blockers_of, message_of, waypoints_of
+from mrpbench_live.rmf.traffic.posting import Blockers, Posted, Waypoints, message_of
 from mrpbench_live.rmf.wire import LEAST_S, Wire
 
 PACKAGE = "rmf_prototype_msgs"
-Composed = tuple[list[Waypoints], dict[tuple[int, int], dict[int, int]]]
-"""The waypoints of all robots, and what `blockers_of` returns."""
 NOWHERE = bytes(16)
 """Session of the plans of robots that have no destination, and have to make way."""
 LONGEST_S = 0.5
@@ -58,6 +58,8 @@ class Traffic:
         """Plans that were made for all robots together."""
         self._released: dict[int, int] = {}
         """The waypoint that each robot was released to."""
+        self._shown: dict[int, int] = {}
+        """The waypoint that each robot had reached when `places` was called before."""
 
     def hear(self, now: float, problem: Problem) -> list[Event]:
         """Take in destinations and errors; return what the recording should say.
@@ -136,42 +138,48 @@ class Traffic:
                 session = self.wishes[robot].session
                 self._refuse(robot, session, CODE_TEMPORARILY_UNREACHABLE, "no plan to the destination was found")
 
-    def compose(self, problem: Problem, plan: Plan, reached: Int, released: Int) -> Composed:
-        """Return what a plan says to each robot.
+    def compose(self, problem: Problem, plan: Plan, reached: Int, released: Int, before: Int) -> Composed:
+        """Return what a plan says to each robot; those that asked for another one do not keep the one that they have.
 
         Args:
             problem: that the plan solves.
             plan: of all robots.
             reached: i8[n] leading segments that are over.
             released: i8[n] leading segments that are released.
+            before: i8[n] what is `reached`, as segments of the plan before.
 
         Raises:
             DispatchError: outside robots cannot follow it, see `blockers_of`.
         """
-        waypoints = waypoints_of(problem, plan, reached)
-        return waypoints, blockers_of(problem, plan, waypoints, reached, released)
+        may_keep = {
+            robot: posted
+            for robot, posted in self.posted.items()
+            if robot not in self.unplanned and posted.key[0] == self._session(robot)
+        }
+        return compose(problem, plan, reached, released, before, may_keep)
 
     def post(self, problem: Problem, composed: Composed) -> None:
         """Send a plan, in `serve`, to all robots that it concerns: those with destinations, and those that make way."""
-        waypoints, blockers = composed
         self._sessions += 1
         self._position = problem.roadmap.position
+        kept, before = composed.kept, self.posted
         self.posted = {
-            robot: self._posted(robot, way)
-            for robot, way in enumerate(waypoints)
-            if robot in self.wishes or len(way.segments) > 1
+            robot: attrs.evolve(before[robot], waypoints=way)
+            if robot in kept
+            else self._posted(robot, way, composed.blockers[robot])
+            for robot, way in enumerate(composed.waypoints)
+            if robot in kept or robot in self.wishes or len(way.segments) > 1
         }
-        self._released.clear()
+        self._released, self._shown = (
+            {robot: waypoint for robot, waypoint in waypoints.items() if robot in kept}
+            for waypoints in (self._released, self._shown)
+        )
         self.unplanned.clear()
-        by_robot: dict[int, dict[int, dict[int, int]]] = {}
-        for (robot, waypoint), others in blockers.items():
-            by_robot.setdefault(robot, {})[waypoint] = others
         now = stamp(self._messages)
-        self._unsent = {
-            robot: partial(
-                message_of, self._messages, problem, posted, by_robot.get(robot, {}), self.posted, self._names, now
-            )
+        self._unsent = {robot: made for robot, made in self._unsent.items() if robot in kept} | {
+            robot: partial(message_of, self._messages, problem, posted, self.posted, self._names, now)
             for robot, posted in self.posted.items()
+            if robot not in kept
         }
 
     def serve(self, due: float) -> None:
@@ -187,9 +195,11 @@ class Traffic:
         self.wire.serve(due)
 
     def places(self, robot: int) -> Float:
-        """Return the places f8[k,2] (metres) of the waypoints that a robot was sent."""
-        posted = self.posted.get(robot)
-        vertices = np.zeros(0, np.int64) if posted is None else posted.waypoints.vertex
+        """Return the places f8[k,2] (metres) of the waypoints of a robot, see `OutsideRobots.route`."""
+        posted, progress = self.posted.get(robot), self.participants.robots[robot].progress
+        vertices = np.zeros(0, np.int64) if posted is None else posted.waypoints.vertex[self._shown.get(robot, 0) :]
+        if posted is not None and progress is not None and progress[0] == posted.key:
+            self._shown[robot] = progress[1]
         found: Float = self._position[vertices]
         return found
 
@@ -214,15 +224,19 @@ class Traffic:
                 found[robot] = max(found[robot], int(segments[min(progress[1], len(segments) - 1)]))
         return found
 
-    def _posted(self, robot: int, waypoints: Waypoints) -> Posted:
-        session = self.wishes[robot].session if self._goes(robot) else NOWHERE
+    def _session(self, robot: int) -> bytes:
+        """The session of a plan that is made for a robot now."""
+        return self.wishes[robot].session if self._goes(robot) else NOWHERE
+
+    def _posted(self, robot: int, waypoints: Waypoints, blockers: Blockers) -> Posted:
+        session = self._session(robot)
         key = robot.to_bytes(4) + session
         version = self._versions[key] = self._versions.get(key, -1) + 1
         uuid = self._messages.new("unique_identifier_msgs/UUID", uuid=list(session))
         plan_id = self._messages.new(
             f"{PACKAGE}/PlanId", destination_session=uuid, mapf_session=self._sessions, plan_version=version
         )
-        return Posted(key=plan_key(plan_id), plan_id=plan_id, waypoints=waypoints)
+        return Posted(key=plan_key(plan_id), plan_id=plan_id, waypoints=waypoints, blockers=blockers)
 
     def _refuse(self, robot: int, session: bytes, code: int, text: str) -> None:
         error = self._messages.new(f"{PACKAGE}/Error", code=code, message=text)

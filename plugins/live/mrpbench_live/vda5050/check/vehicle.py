@@ -1,19 +1,16 @@
-"""Asks a vehicle: sends it orders and actions that it has to accept or to refuse, none of which moves it."""
+"""Asks a vehicle: sends it orders and actions that it has to accept or to refuse, none of which moves it.
 
-import itertools
-import json
-import time
-from collections.abc import Callable, Mapping, Sequence
-from typing import Any
+`areas` asks about corridors and zones.
+"""
 
+from mrpbench_live.vda5050.check.areas import RULES as AREA_RULES
+from mrpbench_live.vda5050.check.areas import AreaCheck
+from mrpbench_live.vda5050.check.conversation import Conversation, State
 from mrpbench_live.vda5050.check.messages import RULES as MESSAGE_RULES
-from mrpbench_live.vda5050.check.messages import MessageCheck
 from mrpbench_live.vda5050.check.rules import Report
-from mrpbench_live.vda5050.messages import Headers
-from mrpbench_live.vda5050.names import VERSIONS
-from mrpbench_live.vda5050.wire import Broker, Client, Wire
 
-RULES = MESSAGE_RULES | {
+RULES = {
+    **MESSAGE_RULES,
     "connection": "the vehicle is ONLINE, in a retained message (6.5)",
     "state": "a state comes at least every 30 s (6.6)",
     "state_request": "stateRequest is answered by a state, and is FINISHED (6.2.3)",
@@ -33,6 +30,7 @@ RULES = MESSAGE_RULES | {
     "stitching": "an update that begins elsewhere is refused (6.1.2)",
     "outdated": "a lower orderUpdateId is refused (6.1.4.4)",
     "refusals": "a refused order leaves the running one alone (6.1.4)",
+    **AREA_RULES,
 }
 _ERRORS = {
     "unknown_action": "INVALID_INSTANT_ACTION",
@@ -47,7 +45,6 @@ _ERRORS = {
 }
 STATE_S = 31.0
 """Seconds within which a state has to come, and one for what is on its way."""
-State = Mapping[str, Any]
 
 
 class VehicleCheck:
@@ -60,106 +57,109 @@ class VehicleCheck:
         manufacturer: of the vehicle.
         serial: number of the vehicle.
         patience: seconds to wait for each answer.
+        drive: x, y (metres): where the vehicle may drive, and back; None: nothing moves it.
     """
 
-    def __init__(self, url: str, version: str, prefix: str, manufacturer: str, serial: str, patience: float) -> None:
-        self._names, self._patience = VERSIONS[version], patience
+    def __init__(
+        self,
+        url: str,
+        version: str,
+        prefix: str,
+        manufacturer: str,
+        serial: str,
+        patience: float,
+        drive: tuple[float, float] | None = None,
+    ) -> None:
         self.report = Report(RULES)
-        self._check = MessageCheck(version, self._names, self.report)
-        self._topic = f"{prefix or self._names.topics}/{manufacturer}/{serial}/"
-        self._headers = Headers(self._names.version, manufacturer, serial)
-        self._wire = Wire(Broker.of(url))
-        self._newest: dict[str, State] = {}
-        self._count: dict[str, int] = {}
-        self._ids = itertools.count(int(time.time()))
-        topics = tuple(self._topic + name for name in ("state", "connection", "factsheet", "visualization"))
-        self._client = Client(self._wire, f"mrpbench-check-{time.time_ns()}", None, topics, lambda: None, self._take)
-        self._wire.add(self._client)
-        self._wire.meet(patience)
+        self._with = Conversation(url, version, prefix, manufacturer, serial, patience, self.report)
+        self._drive = drive
 
     def run(self) -> Report:
         """Ask everything; return what was found."""
         try:
             self._presence()
-            if "state" in self._newest:
+            if "state" in self._with.newest:
                 self._instant_actions()
                 self._refusals_when_idle()
                 self._order()
+                AreaCheck(self._with, self.report, self._drive).run()
         finally:
-            self._wire.close()
+            self._with.close()
         return self.report
 
     # What is asked
 
     def _presence(self) -> None:
-        seen = self._wait("state", lambda _: True, STATE_S)
-        self.report.require("state", seen, f"no valid state on {self._topic}state within {STATE_S:g} s")
-        online = self._wait("connection", lambda it: it["connectionState"] == "ONLINE")
-        found = self._newest.get("connection", {}).get("connectionState", "no message came")
-        self.report.require("connection", online, f"connectionState: {found}", self._newest.get("connection"))
+        seen = self._with.wait("state", lambda _: True, STATE_S)
+        self.report.require("state", seen, f"no valid state on {self._with.topic}state within {STATE_S:g} s")
+        online = self._with.wait("connection", lambda it: it["connectionState"] == "ONLINE")
+        found = self._with.newest.get("connection", {}).get("connectionState", "no message came")
+        self.report.require("connection", online, f"connectionState: {found}", self._with.newest.get("connection"))
         if not seen:
             for name in list(RULES)[list(RULES).index("state") + 1 :]:
                 self.report.skip(name, "the vehicle sends no state")
 
     def _instant_actions(self) -> None:
-        before = self._count["state"]
-        key = self._act("stateRequest")
-        done = self._wait("state", lambda it: self._status(it, key) == "FINISHED")
-        what = f"the action has the status {self._status(self._state, key)}"
-        self.report.require("state_request", done and self._count["state"] > before, what, self._state)
-        before = self._count.get("factsheet", 0)
-        self._act("factsheetRequest")
-        found = self._wait("factsheet", lambda _: self._count["factsheet"] > before)
-        self.report.require("factsheet", found, f"no valid factsheet within {self._patience:g} s")
-        key = self._act("mrpbenchUnknownAction")
+        before = self._with.count["state"]
+        key = self._with.act("stateRequest")
+        done = self._with.wait("state", lambda it: self._with.status(it, key) == "FINISHED")
+        what = f"the action has the status {self._with.status(self._with.state, key)}"
+        self.report.require("state_request", done and self._with.count["state"] > before, what, self._with.state)
+        before = self._with.count.get("factsheet", 0)
+        self._with.act("factsheetRequest")
+        found = self._with.wait("factsheet", lambda _: self._with.count["factsheet"] > before)
+        self.report.require("factsheet", found, f"no valid factsheet within {self._with.patience:g} s")
+        key = self._with.act("mrpbenchUnknownAction")
         self._refused("unknown_action", key)
-        key = self._act("cancelOrder")
+        key = self._with.act("cancelOrder")
         self._refused("nothing_to_cancel", key)
 
     def _refusals_when_idle(self) -> None:
-        place = self._state.get(self._names.position)
-        self._send_order(self._order_of([], id=self._new_id()), "malformed")
+        place = self._with.state.get(self._with.names.position)
+        self._send_order(self._with.order_of([], id=self._with.new_id()), "malformed")
         if place is None:
             for name in ("unknown_order_action", "unknown_map", "out_of_range"):
-                self.report.skip(name, f"the state has no {self._names.position}")
+                self.report.skip(name, f"the state has no {self._with.names.position}")
             return
-        unknown = {"actionType": "mrpbenchUnknown", "actionId": self._new_id(), "blockingType": "HARD"}
-        self._send_order(self._order_of([(0.0, [unknown])]), "unknown_order_action")
-        self._send_order(self._order_of([(0.0, [])], map="mrpbench-unknown-map"), "unknown_map")
-        self._send_order(self._order_of([(1000.0, [])]), "out_of_range")
+        unknown = {"actionType": "mrpbenchUnknown", "actionId": self._with.new_id(), "blockingType": "HARD"}
+        self._send_order(self._with.order_of([(0.0, [unknown])]), "unknown_order_action")
+        self._send_order(self._with.order_of([(0.0, [])], map="mrpbench-unknown-map"), "unknown_map")
+        self._send_order(self._with.order_of([(1000.0, [])]), "out_of_range")
 
     def _order(self) -> None:
-        if self._state.get(self._names.position) is None:
+        if self._with.state.get(self._with.names.position) is None:
             for name in ("accepted", "first_node", "errors_end", "repetition", "same_update", "updated"):
-                self.report.skip(name, f"the state has no {self._names.position}")
+                self.report.skip(name, f"the state has no {self._with.names.position}")
             return
-        order = self._order_of([(0.0, [])])
-        self._publish("order", order)
-        if not self.report.require("accepted", self._is_held(order, 0), "the order is not in the state", self._state):
+        order = self._with.order_of([(0.0, [])])
+        self._with.publish("order", order)
+        if not self.report.require(
+            "accepted", self._with.is_held(order, 0), "the order is not in the state", self._with.state
+        ):
             for name in ("first_node", "errors_end", "repetition", "same_update", "updated", "stitching", "outdated"):
                 self.report.skip(name, "no order was accepted")
             return
         node = order["nodes"][0]["nodeId"]
-        state = self._state
+        state = self._with.state
         kept = state["lastNodeId"] == node and not state["nodeStates"]
         self.report.require("first_node", kept, f"lastNodeId {state['lastNodeId']!r} instead of {node!r}", state)
-        types = {self._names.error(kind, "")[0] for kind in _ERRORS.values() if kind != "INVALID_INSTANT_ACTION"}
+        types = {self._with.names.error(kind, "")[0] for kind in _ERRORS.values() if kind != "INVALID_INSTANT_ACTION"}
         left = sorted({error["errorType"] for error in state["errors"]} & types)
         self.report.require("errors_end", not left, f"still there: {', '.join(left)}", state)
-        before = len(self._state["errors"])
-        self._publish("order", order)
-        self._act("stateRequest")
-        self._wait("state", lambda _: False, 1.0)
+        before = len(self._with.state["errors"])
+        self._with.publish("order", order)
+        self._with.act("stateRequest")
+        self._with.wait("state", lambda _: False, 1.0)
         what = "an error was reported, or the order changed"
-        kept = len(self._state["errors"]) == before and self._state["orderUpdateId"] == 0
-        self.report.require("repetition", kept, what, self._state)
-        other = {**order, "nodes": [{**order["nodes"][0], "nodeId": self._new_id()}]}
+        kept = len(self._with.state["errors"]) == before and self._with.state["orderUpdateId"] == 0
+        self.report.require("repetition", kept, what, self._with.state)
+        other = {**order, "nodes": [{**order["nodes"][0], "nodeId": self._with.new_id()}]}
         self._send_order(other, "same_update")
         update = {**order, "orderUpdateId": 1}
-        self._publish("order", update)
-        if not self.report.require("updated", self._is_held(order, 1), "orderUpdateId stays 0", self._state):
+        self._with.publish("order", update)
+        if not self.report.require("updated", self._with.is_held(order, 1), "orderUpdateId stays 0", self._with.state):
             return
-        elsewhere = {**order["nodes"][0], "nodeId": self._new_id(), "sequenceId": 8}
+        elsewhere = {**order["nodes"][0], "nodeId": self._with.new_id(), "sequenceId": 8}
         self._send_order({**order, "orderUpdateId": 2, "nodes": [elsewhere]}, "stitching")
         self._send_order(order, "outdated")
 
@@ -167,15 +167,15 @@ class VehicleCheck:
 
     def _send_order(self, order: State, rule: str) -> None:
         """Send an order that has to be refused."""
-        before = {key: self._state[key] for key in ("orderId", "orderUpdateId", "lastNodeId", "nodeStates")}
-        self._publish("order", order)
+        before = {key: self._with.state[key] for key in ("orderId", "orderUpdateId", "lastNodeId", "nodeStates")}
+        self._with.publish("order", order)
         self._refused(rule, None)
-        after = {key: self._state[key] for key in before}
-        self.report.require("refusals", after == before, f"after the order for {rule!r}: {after}", self._state)
+        after = {key: self._with.state[key] for key in before}
+        self.report.require("refusals", after == before, f"after the order for {rule!r}: {after}", self._with.state)
 
     def _refused(self, rule: str, action: str | None) -> None:
         """Wait for the error that a rule asks for."""
-        wanted = self._names.error(_ERRORS[rule], "WARNING")[0]
+        wanted = self._with.names.error(_ERRORS[rule], "WARNING")[0]
 
         def is_there(state: State) -> bool:
             return any(
@@ -184,69 +184,10 @@ class VehicleCheck:
                 for error in state["errors"]
             )
 
-        found = self._wait("state", is_there)
-        types = ", ".join(error["errorType"] for error in self._state["errors"]) or "none"
+        found = self._with.wait("state", is_there)
+        types = ", ".join(error["errorType"] for error in self._with.state["errors"]) or "none"
         about = f" about {action}" if action else ""
-        self.report.require(rule, found, f"no error {wanted}{about}; errors: {types}", self._state)
+        self.report.require(rule, found, f"no error {wanted}{about}; errors: {types}", self._with.state)
         if action is not None and found:
-            status = self._status(self._state, action)
-            self.report.require(rule, status == "FAILED", f"the action has the status {status}", self._state)
-
-    def _order_of(
-        self, nodes: Sequence[tuple[float, list[Any]]], id: str | None = None, map: str | None = None
-    ) -> dict[str, Any]:
-        """An order along nodes: metres from the vehicle, and actions."""
-        place = self._state.get(self._names.position, {"x": 0.0, "y": 0.0, "mapId": ""})
-        made = [
-            {
-                "nodeId": self._new_id(),
-                "sequenceId": 2 * index,
-                "released": True,
-                "nodePosition": {"x": place["x"] + away, "y": place["y"], "mapId": map or place["mapId"]},
-                "actions": actions,
-            }
-            for index, (away, actions) in enumerate(nodes)
-        ]
-        return {"orderId": id or self._new_id(), "orderUpdateId": 0, "nodes": made, "edges": []}
-
-    def _act(self, kind: str) -> str:
-        """Send an instant action; return its id."""
-        key = self._new_id()
-        self._publish("instantActions", {"actions": [{"actionType": kind, "actionId": key, "blockingType": "NONE"}]})
-        return key
-
-    def _publish(self, topic: str, body: Mapping[str, Any]) -> None:
-        message = {**self._headers.next(topic), **body}
-        self._client.publish(self._topic + topic, json.dumps(message).encode())
-
-    def _take(self, topic: str, payload: bytes) -> None:
-        kind = topic.rpartition("/")[2]
-        message = self._check.read(topic, payload, retained=kind in ("connection", "factsheet"))
-        if message is not None:
-            self._newest[kind] = message
-            self._count[kind] = self._count.get(kind, 0) + 1
-
-    def _wait(self, topic: str, holds: Callable[[State], bool], seconds: float | None = None) -> bool:
-        """Wait until the newest message of a topic has a property."""
-        until = time.monotonic() + (self._patience if seconds is None else seconds)
-        while not (topic in self._newest and holds(self._newest[topic])):
-            if time.monotonic() > until:
-                return False
-            self._wire.serve(time.monotonic() + 0.02)
-        return True
-
-    def _is_held(self, order: State, update: int) -> bool:
-        wanted = order["orderId"], update
-        return self._wait("state", lambda it: (it["orderId"], it["orderUpdateId"]) == wanted)
-
-    def _status(self, state: State, action: str) -> str:
-        """The status of an instant action."""
-        states = state.get("instantActionStates", ()) if self._names.has_instant_states else state["actionStates"]
-        return next((str(it["actionStatus"]) for it in states if it["actionId"] == action), "none")
-
-    @property
-    def _state(self) -> State:
-        return self._newest["state"]
-
-    def _new_id(self) -> str:
-        return f"mrpbench-{next(self._ids)}"
+            status = self._with.status(self._with.state, action)
+            self.report.require(rule, status == "FAILED", f"the action has the status {status}", self._with.state)

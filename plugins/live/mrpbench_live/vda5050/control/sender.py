@@ -54,8 +54,8 @@ class OrderSender:
         """Moves that the vehicle has made, by what it reports."""
         self.refused: str | None = None
         """Why it refused the newest message; until the next plan it gets no other one."""
-        self._base = 0
-        """Moves up to the decision point."""
+        self._base = self._shown = 0
+        """Moves up to the decision point, and those that the vehicle had made when `places` was called before."""
         self._orders, self._order, self._update = 0, "", 0
         self._origin = 0
         """Moves before the first node of the order."""
@@ -111,8 +111,9 @@ class OrderSender:
                 self._publish_order(self._base, allowed, now)
 
     def places(self) -> Float:
-        """Return the places f8[k,2] (metres) from the node that the vehicle has passed to the decision point."""
-        nodes = range(max(self.passed, self.itinerary.first), min(self._base, self.itinerary.length) + 1)
+        """Return the places f8[k,2] (metres) of nodes to the decision point, see `OutsideRobots.route`."""
+        nodes = range(max(self._shown, self.itinerary.first), min(self._base, self.itinerary.length) + 1)
+        self._shown = self.passed
         stops = [self.itinerary.stop(moves) for moves in nodes]
         return np.array([(stop.x, stop.y) for stop in stops]).reshape(-1, 2)
 
