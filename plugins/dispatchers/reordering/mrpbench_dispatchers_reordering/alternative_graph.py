@@ -210,12 +210,12 @@ class _Events:
         begins = self.of(after, np.full(len(after), BEGIN))
         return np.stack([ends, begins, np.ones(len(ends), np.int64)], axis=1).astype(np.int32)
 
-    def arcs_into_rotations(self, rotation: Int, arcs: Int32) -> Int32:
+    def arcs_into_rotations(self, rotation: Int32, arcs: Int32) -> Int32:
         """The moves of a rotation start together, so what one of them waits for the others wait for too."""
         members = np.flatnonzero(rotation != NONE)
         begins, inside = self.of(members, np.full(len(members), BEGIN)), self.has(members)
         started = begins == self.first[self._moves.robot[members]]  # under way or over
-        group = rotation[members]
+        group: Int = rotation[members].astype(np.int64)
         counts = np.zeros(len(rotation), bool)
         counts[group[inside]] = True
         counts[group[started]] = False
