@@ -82,7 +82,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.task_sources": ("live", "vda5050"),
     },
     "mrpbench-policies": {
-        "mrpbench.metrics": ("pogema",),
+        "mrpbench.metrics": ("pogema", "policy"),
         "mrpbench.planners": ("policy",),
         "mrpbench.scenarios": ("pogema",),
         "mrpbench.worlds": ("pogema",),
