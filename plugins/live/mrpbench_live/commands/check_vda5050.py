@@ -7,8 +7,9 @@ import textwrap
 from mrpbench_core.cli.output.table import print_json
 from mrpbench_core.files.errors import InputError
 from mrpbench_live.vda5050.check.control import ControlCheck
+from mrpbench_live.vda5050.check.conversation import Conversation
 from mrpbench_live.vda5050.check.rules import BROKEN, Report
-from mrpbench_live.vda5050.check.vehicle import VehicleCheck
+from mrpbench_live.vda5050.check.vehicle import RULES, VehicleCheck
 
 SHOWN = 600
 """Characters of a message that are printed."""
@@ -18,8 +19,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Declare the arguments."""
     parser.epilog = (
         "A vehicle is asked, by orders and actions that do not move it, unless --drive says where it may drive; it has"
-        " to be idle. A fleet control is listened"
-        " to while it works. Exit code: 0 no rule is broken, 1 some are, 2 the party cannot be reached."
+        " to be idle. A fleet control is listened to while it works."
+        " Exit code: 0 no rule is broken, 1 some are, 2 the party cannot be reached."
     )
     parser.add_argument("party", choices=("vehicle", "control"), help="who is checked")
     parser.add_argument("url", metavar="URL", help="broker, e.g. mqtt://127.0.0.1:1883")
@@ -50,7 +51,9 @@ def run(arguments: argparse.Namespace) -> int:
             raise InputError("no vehicle is named", hint="--vehicle MANUFACTURER/SERIAL")
         patience = arguments.seconds or 5.0
         drive = _place(arguments.drive)
-        report = VehicleCheck(arguments.url, version, topics, manufacturer, serial, patience, drive).run()
+        report = Report(RULES)
+        conversation = Conversation(arguments.url, version, topics, manufacturer, serial, patience, report)
+        VehicleCheck(conversation, report, drive).run()
     if arguments.json:
         print_json({name: vars_of(finding) for name, finding in report.findings.items()})
     else:

@@ -1,13 +1,12 @@
 """Runs a policy that is a Python class, in this process."""
 
 import hashlib
-import sys
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 from mrpbench_core.api import Float, InputError
 from mrpbench_policies.acting.acting import Acting, Arrays, check_choice
+from mrpbench_policies.acting.serve import policy_of, run_file
 
 
 class PythonClass(Acting):
@@ -28,15 +27,12 @@ class PythonClass(Acting):
 
     def __init__(self, file: Path, content: bytes, weights: Path | None = None) -> None:
         self._file, self._further = file, () if weights is None else (str(weights),)
-        module = ModuleType("mrpbench_policy_" + hashlib.sha256(content).hexdigest()[:24])
-        module.__file__ = str(file)
-        sys.modules[module.__name__] = module  # dataclasses and pickle find classes there
+        name = "mrpbench_policy_" + hashlib.sha256(content).hexdigest()[:24]
         try:
-            exec(compile(content, str(file), "exec"), vars(module))  # noqa: S102 - the user names the file to run it
+            made = policy_of(run_file(content, str(file), name))
         except SyntaxError as error:
             raise InputError(f"is not Python: {error.msg}", file=file, line=error.lineno) from None
-        made = getattr(module, "Policy", None)
-        if not isinstance(made, type) or not callable(getattr(made, "act", None)):
+        if made is None:
             raise InputError("defines no class `Policy` with a method `act`", file=file)
         self._class: Any = made
         self._robots = 0

@@ -27,21 +27,32 @@ def arrays_of(plain_arrays: Mapping[str, Any]) -> dict[str, Any]:
     return {name: np.frombuffer(data, kind).reshape(shape).copy() for name, (kind, shape, data) in plain_arrays.items()}
 
 
+def run_file(content: bytes, file: str, name: str) -> ModuleType:
+    """Return the module of that name that a Python file makes."""
+    module = ModuleType(name)
+    module.__file__ = file
+    sys.modules[name] = module  # dataclasses and pickle find classes there
+    exec(compile(content, file, "exec"), vars(module))  # noqa: S102 - the user names the file to run it
+    return module
+
+
+def policy_of(module: ModuleType) -> Any:
+    """Return the class `Policy` of a module, None if it has none with a method `act`."""
+    made = getattr(module, "Policy", None)
+    return made if isinstance(made, type) and callable(getattr(made, "act", None)) else None
+
+
 class Server:
     """The policy of a file, and what it answers."""
 
     def __init__(self, file: str, weights: list[str]) -> None:
         self._weights = weights
-        module = ModuleType("policy")
-        module.__file__ = file
-        sys.modules["policy"] = module  # dataclasses and pickle find classes there
-        exec(compile(Path(file).read_bytes(), file, "exec"), vars(module))  # noqa: S102 - the user names the file to run it
-        self._class: Any = getattr(module, "Policy", None)
+        self._class = policy_of(run_file(Path(file).read_bytes(), file, "policy"))
         self._policy: Any = None
 
     def is_policy(self) -> bool:
         """Tell whether the file has a class `Policy` with a method `act`."""
-        return isinstance(self._class, type) and callable(getattr(self._class, "act", None))
+        return self._class is not None
 
     def begin(self, robots: int, seed: int) -> Any:
         """Make a new policy; return its memory."""

@@ -51,28 +51,13 @@ class VehicleCheck:
     """Asks one vehicle.
 
     Args:
-        url: of the broker.
-        version: `2.1` or `3.0`.
-        prefix: of topics, up to the major version.
-        manufacturer: of the vehicle.
-        serial: number of the vehicle.
-        patience: seconds to wait for each answer.
+        conversation: with the vehicle; it is closed at the end.
+        report: of `RULES`, to which the conversation checks each message.
         drive: x, y (metres): where the vehicle may drive, and back; None: nothing moves it.
     """
 
-    def __init__(
-        self,
-        url: str,
-        version: str,
-        prefix: str,
-        manufacturer: str,
-        serial: str,
-        patience: float,
-        drive: tuple[float, float] | None = None,
-    ) -> None:
-        self.report = Report(RULES)
-        self._with = Conversation(url, version, prefix, manufacturer, serial, patience, self.report)
-        self._drive = drive
+    def __init__(self, conversation: Conversation, report: Report, drive: tuple[float, float] | None = None) -> None:
+        self._with, self.report, self._drive = conversation, report, drive
 
     def run(self) -> Report:
         """Ask everything; return what was found."""
