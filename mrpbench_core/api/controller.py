@@ -62,6 +62,17 @@ class FleetControllerSession:
         self._name = name
         self._scans: dict[int, ScanBatch] = {}
 
+    def observe(self, now: float, scans: tuple[ScanBatch, ...], fleet_pose: Float) -> None:
+        """Begin with what follows from the scans alone, which are those of the next call of `command`.
+
+        Navigators need not call this; `command` begins with it otherwise.
+
+        Args:
+            now: simulated seconds.
+            scans: `Observations.scans`, the same object.
+            fleet_pose: f8[n,3] estimated poses of all robots.
+        """
+
     def command(self, observations: Observations) -> Float:
         """Return forward speed (m/s) and turn rate (rad/s) f8[k,2] of all rows; NaN = no command is admissible."""
         for batch in observations.scans:

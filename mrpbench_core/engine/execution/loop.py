@@ -123,6 +123,7 @@ class ExecutionLoop(ControlLoop):
         truth = state.pose if self._needs_truth else None
         estimate = self._checks.estimate(self._localizer.update(self._now, odometry, scans, truth))
         self._observation = FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
+        self._navigator.observe(self._now, self._observation)
         inputs.replanner.observe(self._observation)
 
     def _dispatch(self) -> None:

@@ -9,7 +9,7 @@ from mrpbench_core.engine.execution.evaluations import Evaluations
 from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.execution.evaluation import Evaluation
-from mrpbench_core.model.execution.observation import Observations
+from mrpbench_core.model.execution.observation import Observations, ScanBatch
 from mrpbench_core.model.worlds.world import World
 
 
@@ -45,6 +45,10 @@ class _ObservedSession(FleetControllerSession):
     def __init__(self, session: FleetControllerSession, evaluations: Evaluations, period: float) -> None:
         super().__init__(session.sessions)
         self._session, self._evaluations, self._period = session, evaluations, period
+
+    def observe(self, now: float, scans: tuple[ScanBatch, ...], fleet_pose: Float) -> None:
+        """As the controller."""
+        self._session.observe(now, scans, fleet_pose)
 
     def command(self, observations: Observations) -> Float:
         """The commands of the controller; then what it weighed is collected."""

@@ -33,11 +33,11 @@ Lidar sound(const Lidar& lidar) {
 
 Caster::Caster(std::vector<Segment> segments, const Lidar& lidar, int threads)
     : lidar_(sound(lidar)),
-      team_(std::make_unique<Team>(threads)),
       buckets_(segments, lidar.range, bucket_size(lidar.range)),
       per_radian_(lidar.beams / kTurn),
       padding_(kRoughAngle * per_radian_),
-      edge_(1 + static_cast<long>(2 * padding_)) {
+      edge_(1 + static_cast<long>(2 * padding_)),
+      team_(threads) {
   for (const Segment& it : segments) walls_.push_back(wall(it));
   for (int i = 0; i < lidar.beams; ++i) {
     cosine_.push_back(std::cos(i * (kTurn / lidar.beams)));
@@ -67,18 +67,26 @@ std::vector<Caster::Wall> Caster::placed(const Outlines& outlines, std::span<con
   return found;
 }
 
-void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, std::span<const Point> centres,
-                  std::span<const double> radius, std::span<const Segment> leaves, const Outlines& outlines,
-                  std::span<double> ranges) const {
-  std::vector<Wall> moving;
-  for (const Segment& it : leaves) moving.push_back(wall(it));
-  const std::vector<Wall> sides = placed(outlines, poses);
+/// What all lidars of a scan see.
+struct Caster::Scene {
+  std::vector<Point> centres;
+  std::vector<Wall> moving, sides;
+  double largest;
+  DiscHash hash;
+};
+
+void Caster::begin(std::span<const int> scanning, std::span<const Pose> poses, std::vector<Point> centres,
+                   std::span<const double> radius, std::span<const Segment> leaves, const Outlines& outlines,
+                   std::span<double> ranges, std::shared_ptr<const void> owner) {
   double largest = 0;
   for (const double it : radius) largest = std::max(largest, it);
-  DiscHash hash((lidar_.range + largest) / 2);
-  hash.build(centres);
-  const auto beams = static_cast<std::size_t>(lidar_.beams);
-  team_->share(scanning.size(), [&](std::size_t row) {
+  auto scene = std::make_shared<Scene>(
+      Scene{std::move(centres), {}, placed(outlines, poses), largest, DiscHash((lidar_.range + largest) / 2)});
+  for (const Segment& it : leaves) scene->moving.push_back(wall(it));
+  scene->hash.build(scene->centres);
+  team_.begin(scanning.size(), [=, this, first = outlines.first, owner = std::move(owner)](std::size_t row) {
+    const auto& [centres, moving, sides, largest, hash] = *scene;
+    const auto beams = static_cast<std::size_t>(lidar_.beams);
     const int robot = scanning[row];
     const Pose& pose = poses[static_cast<std::size_t>(robot)];
     if (!somewhere({pose.x, pose.y}) || !std::isfinite(pose.yaw)) throw std::invalid_argument("poses must be finite");
@@ -95,11 +103,11 @@ void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, st
     hash.near(origin, lidar_.range + largest, [&](int disc) {
       const auto at = static_cast<std::size_t>(disc);
       if (disc == robot) return;
-      if (at + 1 >= outlines.first.size()) {
+      if (at + 1 >= first.size()) {
         see_disc(centres[at] - origin, radius[at], facing, nearness);
         return;
       }
-      for (int side = outlines.first[at]; side < outlines.first[at + 1]; ++side) {
+      for (int side = first[at]; side < first[at + 1]; ++side) {
         see_wall(sides[static_cast<std::size_t>(side)], origin, facing, nearness);
       }
     });

@@ -19,6 +19,7 @@ class ControllerServer:
 
     def __init__(self, controllers: FleetControllerSession, name: str, failure_tolerance: float) -> None:
         self._controllers, self._name, self._failure_tolerance = controllers, name, failure_tolerance
+        self.observe = controllers.observe
         self._without: dict[int, float] = {}
         """Robots that have no admissible command, and when each last had one, or did not need one."""
         self._before = 0.0

@@ -42,6 +42,10 @@ class WaypointsSession(NavigatorSession):
         self.detours.cancel_all()
         self.recoveries.reset()
 
+    def observe(self, now: float, observation: FleetObservation) -> None:
+        """Let controllers begin with the scans."""
+        self.controllers.observe(now, observation.scans, observation.estimate.pose)
+
     def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:
         """Command all robots for one control period."""
         pose, measured = observation.estimate.pose, observation.odometry.twist

@@ -77,7 +77,9 @@ class PlanarSimulation(Simulation):
         }
         self._movers = MoverDiscs(self._layout, np.asarray(movers, float))
         self._state = self._observe()
-        self._scans = self._take_scans(self._schedule.due(0))
+        self._scans: list[tuple[Caster, float, Int32, Float]] = []
+        """What takes scans, when, of which robots, and the ranges; the last ones may not be complete yet."""
+        self._take_scans()
 
     @property
     def state(self) -> State:
@@ -86,14 +88,14 @@ class PlanarSimulation(Simulation):
 
     def step(self, inputs: Inputs) -> State:
         """Advance by one control period."""
+        self._complete_scans()
         self._movers.update(inputs)
         if inputs.facilities:
             self._operate(inputs.facilities)
         self._plane.step(inputs.twist, np.ascontiguousarray(self._movers.body))
         self._periods += 1
         self._state = self._observe()
-        if due := self._schedule.due(self._periods):
-            self._scans += self._take_scans(due)
+        self._take_scans()
         return self._state
 
     def _observe(self) -> State:
@@ -122,20 +124,28 @@ class PlanarSimulation(Simulation):
 
     def scans(self) -> tuple[ScanBatch, ...]:
         """Scans taken since the last call."""
-        taken, self._scans = self._scans, ()
-        return taken
+        self._complete_scans()
+        taken, self._scans = self._scans, []
+        return tuple(
+            ScanBatch(stamp=stamp, robot=robots, ranges=read_only(ranges)) for _, stamp, robots, ranges in taken
+        )
 
-    def _take_scans(self, due: Sequence[tuple[Lidar, Int32]]) -> tuple[ScanBatch, ...]:
-        """Scans of the robots whose turn it is now, by lidar."""
-        stamp = self._periods * self._period
+    def _complete_scans(self) -> None:
+        for caster, *_ in self._scans:
+            caster.finish()
+
+    def _take_scans(self) -> None:
+        """Begin with the scans of the robots whose turn it is now, by lidar; other threads go on with them."""
+        if not (due := self._schedule.due(self._periods)):
+            return
         radius, discs = self._robot_radius, np.ascontiguousarray(self._movers.scan_discs)
         if len(discs):
             radius = np.concatenate([radius, self._movers.scan_radius])
-        batches = []
         for lidar, robots in due:
-            ranges = self._casters[lidar].scan(robots, self._pose, discs, radius, self._leaves)
-            batches.append(ScanBatch(stamp=stamp, robot=robots, ranges=ranges))
-        return tuple(batches)
+            self._complete_scans()
+            caster, ranges = self._casters[lidar], np.empty((len(robots), lidar.beams))
+            caster.begin(ranges, robots, self._pose, discs, radius, self._leaves)
+            self._scans.append((caster, self._periods * self._period, robots, ranges))
 
     def close(self) -> None:
         """Nothing is held."""
