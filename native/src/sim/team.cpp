@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
@@ -15,18 +16,15 @@ namespace mrpbench::sim {
 
 namespace {
 
-/// How often a thread looks for what it waits for before it sleeps: some 50 microseconds, as long as it takes to wake
-/// up.
-constexpr int kLooks = 1000;
+/// For how long a thread looks for what it waits for before it sleeps: to wake up one costs each of the two 20
+/// microseconds, and the calls of a control period are less than this apart.
+constexpr std::chrono::microseconds kPatience(200);
 
-/// Wait for a short time until something holds.
+/// Wait until something holds, but not for long; let others run in the meantime.
 template <class Condition>
 void look(const Condition& holds) {
-  for (int k = 0; k < kLooks && !holds(); ++k) {
-#if defined(__x86_64__)
-    __builtin_ia32_pause();
-#endif
-  }
+  const auto end = std::chrono::steady_clock::now() + kPatience;
+  while (!holds() && std::chrono::steady_clock::now() < end) std::this_thread::yield();
 }
 
 }  // namespace
