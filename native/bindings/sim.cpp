@@ -107,7 +107,7 @@ void begin_scan(Caster& self, const Written<-1>& ranges, const Vector<std::int32
                 static_cast<std::size_t>(outlines.first.back()) == outlines.sides.size(),
             "`first` gives each robot its part of `sides`");
   }
-  auto owner = keeping(ranges, robots, pose, radius, first);
+  auto owner = keeping(ranges, robots, pose, radius, leaves, sides, first);
   const nb::gil_scoped_release release;
   std::vector<Point> centres;
   for (const Pose& it : rows<Pose>(pose)) centres.push_back({it.x, it.y});

@@ -33,22 +33,15 @@ class ControllerServer:
         """
         command = self._controllers.command(observations)
         missing = self._check(command, observations.robot)
-        if self._without or missing is not None:
-            robots = [] if missing is None else observations.robot[missing].tolist()
-            waiting = set(observations.robot.tolist()).difference(robots)
-            self._without = {robot: since for robot, since in self._without.items() if robot not in waiting}
-            self._without = dict.fromkeys(robots, self._before) | self._without
+        robots = [] if missing is None else observations.robot[missing].tolist()
+        self._without = {robot: self._without.get(robot, self._before) for robot in robots}
         return command, missing
 
-    def have_failed(self, now: float, following: Bool) -> list[int]:
-        """Return the robots that follow and have had no command for too long, in order; their time begins anew."""
-        self._before, failed = now, []
-        for robot, since in sorted(self._without.items()):
-            if not following[robot]:
-                del self._without[robot]
-            elif now - since > self._failure_tolerance:
-                self._without[robot] = now
-                failed.append(robot)
+    def have_failed(self, now: float) -> list[int]:
+        """Return the robots that have had no command for too long, in order; their time begins anew."""
+        self._before = now
+        failed = [robot for robot, since in self._without.items() if now - since > self._failure_tolerance]
+        self._without |= dict.fromkeys(failed, now)
         return failed
 
     def failure_reason(self, robot: int) -> str:
