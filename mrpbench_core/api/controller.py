@@ -63,14 +63,9 @@ class FleetControllerSession:
         self._scans: dict[int, ScanBatch] = {}
 
     def observe(self, now: float, scans: tuple[ScanBatch, ...], fleet_pose: Float) -> None:
-        """Begin with what follows from the scans alone, which are those of the next call of `command`.
+        """Begin with what follows from `Observations.scans`, the same object, and `fleet_pose` of the next `command`.
 
-        Navigators need not call this; `command` begins with it otherwise.
-
-        Args:
-            now: simulated seconds.
-            scans: `Observations.scans`, the same object.
-            fleet_pose: f8[n,3] estimated poses of all robots.
+        Navigators need not call this before `command`, which begins with it otherwise.
         """
 
     def command(self, observations: Observations) -> Float:

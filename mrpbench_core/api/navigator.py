@@ -26,12 +26,6 @@ class NavigatorSession(ABC):
         segments are less by that from now on, but never below 0.
         """
 
-    def observe(self, now: float, observation: FleetObservation) -> None:  # noqa: B027 - optional
-        """Begin with what follows from the observation alone, which is that of the next call of `step`.
-
-        The dispatcher decides in the meantime; what other threads do until `step` costs no time.
-        """
-
     @abstractmethod
     def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:
         """Return twists for one control period, and how far each robot is; `now` in simulated seconds.

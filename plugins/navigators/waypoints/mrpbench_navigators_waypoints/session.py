@@ -42,14 +42,11 @@ class WaypointsSession(NavigatorSession):
         self.detours.cancel_all()
         self.recoveries.reset()
 
-    def observe(self, now: float, observation: FleetObservation) -> None:
-        """Let controllers begin with the scans."""
-        self.controllers.observe(now, observation.scans, observation.estimate.pose)
-
     def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:
         """Command all robots for one control period."""
         pose, measured = observation.estimate.pose, observation.odometry.twist
         follower, recoveries, rotations = self.follower, self.recoveries, self.rotations
+        self.controllers.observe(now, observation.scans, pose)
         follower.update(pose, measured, orders.released, observation.level)
         if orders.in_step or rotations:
             rotations.update(now, orders)

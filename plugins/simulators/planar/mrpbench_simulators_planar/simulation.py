@@ -9,7 +9,7 @@ from mrpbench_native.sim import Caster, Plane
 
 from mrpbench_core.api import Simulation
 from mrpbench_core.model.common.arrays import Float, Int16, Int32, frozen_array, read_only
-from mrpbench_core.model.common.fleet import Fleet, Lidar
+from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.movers import MoverDiscs
 from mrpbench_core.model.execution.observation import ScanBatch
 from mrpbench_core.model.execution.scan_schedule import ScanSchedule
