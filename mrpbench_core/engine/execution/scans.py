@@ -1,7 +1,6 @@
 """The scans of a control period, which are read when they are first needed: a simulator may still be taking them."""
 
 from collections.abc import Callable, Sequence
-from functools import cached_property
 from typing import Any
 
 from mrpbench_core.model.execution.observation import ScanBatch
@@ -12,11 +11,14 @@ class Scans(Sequence[ScanBatch]):
 
     def __init__(self, read: Callable[[], tuple[ScanBatch, ...]]) -> None:
         self._read = read
+        self._batches: tuple[ScanBatch, ...] | None = None
 
-    @cached_property
+    @property
     def batches(self) -> tuple[ScanBatch, ...]:
         """All of them."""
-        return self._read()
+        if self._batches is None:
+            self._batches = self._read()
+        return self._batches
 
     def __getitem__(self, index: Any) -> Any:
         return self.batches[index]

@@ -33,15 +33,17 @@ class ControllerServer:
         """
         command = self._controllers.command(observations)
         missing = self._check(command, observations.robot)
-        robots = [] if missing is None else observations.robot[missing].tolist()
-        self._without = {robot: self._without.get(robot, self._before) for robot in robots}
+        if self._without or missing is not None:
+            robots = [] if missing is None else observations.robot[missing].tolist()
+            self._without = {robot: self._without.get(robot, self._before) for robot in robots}
         return command, missing
 
     def have_failed(self, now: float) -> list[int]:
         """Return the robots that have had no command for too long, in order; their time begins anew."""
         self._before = now
         failed = [robot for robot, since in self._without.items() if now - since > self._failure_tolerance]
-        self._without |= dict.fromkeys(failed, now)
+        for robot in failed:
+            self._without[robot] = now
         return failed
 
     def failure_reason(self, robot: int) -> str:

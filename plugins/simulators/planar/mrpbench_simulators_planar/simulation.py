@@ -9,7 +9,7 @@ from mrpbench_native.sim import Caster, Plane
 
 from mrpbench_core.api import Simulation
 from mrpbench_core.model.common.arrays import Float, Int16, Int32, frozen_array, read_only
-from mrpbench_core.model.common.fleet import Fleet
+from mrpbench_core.model.common.fleet import Fleet, Lidar
 from mrpbench_core.model.execution.movers import MoverDiscs
 from mrpbench_core.model.execution.observation import ScanBatch
 from mrpbench_core.model.execution.scan_schedule import ScanSchedule
@@ -77,9 +77,10 @@ class PlanarSimulation(Simulation):
         }
         self._movers = MoverDiscs(self._layout, np.asarray(movers, float))
         self._state = self._observe()
-        self._scans: list[tuple[Caster, float, Int32, Float]] = []
-        """What takes scans, when, of which robots, and the ranges; the last ones may not be complete yet."""
-        self._take_scans()
+        self._scans: tuple[ScanBatch, ...] = ()
+        self._casting: Caster | None = None
+        """Takes scans that are not complete yet."""
+        self._take_scans(self._schedule.due(0))
 
     @property
     def state(self) -> State:
@@ -95,7 +96,8 @@ class PlanarSimulation(Simulation):
         self._plane.step(inputs.twist, np.ascontiguousarray(self._movers.body))
         self._periods += 1
         self._state = self._observe()
-        self._take_scans()
+        if due := self._schedule.due(self._periods):
+            self._take_scans(due)
         return self._state
 
     def _observe(self) -> State:
@@ -125,27 +127,25 @@ class PlanarSimulation(Simulation):
     def scans(self) -> tuple[ScanBatch, ...]:
         """Scans taken since the last call."""
         self._complete_scans()
-        taken, self._scans = self._scans, []
-        return tuple(
-            ScanBatch(stamp=stamp, robot=robots, ranges=read_only(ranges)) for _, stamp, robots, ranges in taken
-        )
+        taken, self._scans = self._scans, ()
+        return taken
 
-    def _complete_scans(self) -> None:
-        for caster, *_ in self._scans:
-            caster.finish()
-
-    def _take_scans(self) -> None:
+    def _take_scans(self, due: Sequence[tuple[Lidar, Int32]]) -> None:
         """Begin with the scans of the robots whose turn it is now, by lidar; other threads go on with them."""
-        if not (due := self._schedule.due(self._periods)):
-            return
+        stamp = self._periods * self._period
         radius, discs = self._robot_radius, np.ascontiguousarray(self._movers.scan_discs)
         if len(discs):
             radius = np.concatenate([radius, self._movers.scan_radius])
         for lidar, robots in due:
             self._complete_scans()
-            caster, ranges = self._casters[lidar], np.empty((len(robots), lidar.beams))
-            caster.begin(ranges, robots, self._pose, discs, radius, self._leaves)
-            self._scans.append((caster, self._periods * self._period, robots, ranges))
+            self._casting, ranges = self._casters[lidar], np.empty((len(robots), lidar.beams))
+            self._casting.begin(ranges, robots, self._pose, discs, radius, self._leaves)
+            self._scans += (ScanBatch(stamp=stamp, robot=robots, ranges=read_only(ranges)),)
+
+    def _complete_scans(self) -> None:
+        if self._casting is not None:
+            self._casting.finish()
+            self._casting = None
 
     def close(self) -> None:
         """Nothing is held."""
