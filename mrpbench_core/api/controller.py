@@ -62,6 +62,12 @@ class FleetControllerSession:
         self._name = name
         self._scans: dict[int, ScanBatch] = {}
 
+    def observe(self, now: float, scans: tuple[ScanBatch, ...], fleet_pose: Float) -> None:
+        """Begin with what follows from `Observations.scans`, the same object, and `fleet_pose` of the next `command`.
+
+        Navigators need not call this before `command`, which begins with it otherwise.
+        """
+
     def command(self, observations: Observations) -> Float:
         """Return forward speed (m/s) and turn rate (rad/s) f8[k,2] of all rows; NaN = no command is admissible."""
         for batch in observations.scans:

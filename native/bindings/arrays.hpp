@@ -3,10 +3,12 @@
 
 #include <nanobind/ndarray.h>
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <vector>
 
 namespace mrpbench::bindings {
@@ -36,6 +38,12 @@ nb::ndarray<nb::numpy, T> own(std::vector<T> values, std::initializer_list<std::
   auto* const kept = new std::vector<T>(std::move(values));
   const nb::capsule owner(kept, [](void* it) noexcept { delete static_cast<std::vector<T>*>(it); });
   return nb::ndarray<nb::numpy, T>(kept->data(), shape.size(), shape.begin(), owner);
+}
+
+/// What keeps arrays as long as it lasts.
+template <class... Arrays>
+std::shared_ptr<const void> keeping(const Arrays&... arrays) {
+  return std::make_shared<std::tuple<Arrays...>>(arrays...);
 }
 
 inline void require(bool holds, const char* what) {

@@ -85,8 +85,9 @@ void see(Fleet& self, double now, const Vector<std::int32_t>& robots, const Matr
   for (const std::int32_t robot : rows<std::int32_t>(robots)) {
     require(robot >= 0 && static_cast<std::size_t>(robot) < self.size(), "there is no such robot");
   }
+  auto owner = keeping(robots, poses, ranges);
   const nb::gil_scoped_release release;
-  self.see(now, rows<std::int32_t>(robots), rows<Pose>(poses), {ranges.data(), ranges.size()});
+  self.see(now, rows<std::int32_t>(robots), rows<Pose>(poses), {ranges.data(), ranges.size()}, std::move(owner));
 }
 
 /// The forecast of each robot; `robots` are those of the objects, in ascending order.

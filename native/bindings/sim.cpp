@@ -88,11 +88,14 @@ std::size_t observe(const Plane& self, const Written<3>& pose, const Written<2>&
   return self.touches().size();
 }
 
-Output<double> scan(const Caster& self, const Vector<std::int32_t>& robots, const Matrix<3>& pose,
-                    const Matrix<2>& movers, const Vector<double>& radius, const std::optional<Matrix<4>>& leaves,
-                    const std::optional<Matrix<4>>& sides, const std::optional<Vector<std::int32_t>>& first) {
-  const std::size_t count = pose.shape(0), beams = static_cast<std::size_t>(self.beams());
+/// Begin to write the ranges of `robots` into an array.
+void begin_scan(Caster& self, const Written<-1>& ranges, const Vector<std::int32_t>& robots, const Matrix<3>& pose,
+                const Matrix<2>& movers, const Vector<double>& radius, const std::optional<Matrix<4>>& leaves,
+                const std::optional<Matrix<4>>& sides, const std::optional<Vector<std::int32_t>>& first) {
+  const std::size_t count = pose.shape(0);
   require(radius.size() == count + movers.shape(0), "each robot and mover has a radius");
+  require(ranges.shape(0) == robots.size() && ranges.shape(1) == static_cast<std::size_t>(self.beams()),
+          "one row of beams for each robot");
   for (const std::int32_t robot : rows<std::int32_t>(robots)) {
     require(robot >= 0 && static_cast<std::size_t>(robot) < count, "there is no such robot");
   }
@@ -104,16 +107,25 @@ Output<double> scan(const Caster& self, const Vector<std::int32_t>& robots, cons
                 static_cast<std::size_t>(outlines.first.back()) == outlines.sides.size(),
             "`first` gives each robot its part of `sides`");
   }
-  std::vector<double> ranges(robots.size() * beams);
-  {
-    const nb::gil_scoped_release release;
-    std::vector<Point> centres;
-    for (const Pose& it : rows<Pose>(pose)) centres.push_back({it.x, it.y});
-    for (const Point& it : rows<Point>(movers)) centres.push_back(it);
-    self.scan(rows<std::int32_t>(robots), rows<Pose>(pose), centres, rows<double>(radius),
-              leaves ? rows<Segment>(*leaves) : std::span<const Segment>{}, outlines, ranges);
-  }
-  return own(std::move(ranges), {robots.size(), beams});
+  auto owner = keeping(ranges, robots, pose, radius, leaves, sides, first);
+  const nb::gil_scoped_release release;
+  std::vector<Point> centres;
+  for (const Pose& it : rows<Pose>(pose)) centres.push_back({it.x, it.y});
+  for (const Point& it : rows<Point>(movers)) centres.push_back(it);
+  self.begin(rows<std::int32_t>(robots), rows<Pose>(pose), std::move(centres), rows<double>(radius),
+             leaves ? rows<Segment>(*leaves) : std::span<const Segment>{}, outlines, {ranges.data(), ranges.size()},
+             std::move(owner));
+}
+
+Output<double> scan(Caster& self, const Vector<std::int32_t>& robots, const Matrix<3>& pose, const Matrix<2>& movers,
+                    const Vector<double>& radius, const std::optional<Matrix<4>>& leaves,
+                    const std::optional<Matrix<4>>& sides, const std::optional<Vector<std::int32_t>>& first) {
+  const std::size_t beams = static_cast<std::size_t>(self.beams());
+  const auto ranges = own(std::vector<double>(robots.size() * beams), {robots.size(), beams});
+  begin_scan(self, Written<-1>(ranges), robots, pose, movers, radius, leaves, sides, first);
+  const nb::gil_scoped_release release;
+  self.finish();
+  return ranges;
 }
 
 void construct_walkers(Walkers* self, const Matrix<4>& segments, const nb::dict& people, const nb::dict& options,
@@ -176,7 +188,10 @@ NB_MODULE(sim, module) {
   nb::class_<Caster>(module, "Caster")
       .def("__init__", &construct_caster, nb::kw_only(), "segments"_a, "lidar"_a, "threads"_a = 1)
       .def("scan", &scan, "robots"_a, "pose"_a, "movers"_a, "radius"_a, "leaves"_a = nb::none(), "sides"_a = nb::none(),
-           "first"_a = nb::none());
+           "first"_a = nb::none())
+      .def("begin", &begin_scan, "ranges"_a.noconvert(), "robots"_a, "pose"_a, "movers"_a, "radius"_a,
+           "leaves"_a = nb::none(), "sides"_a = nb::none(), "first"_a = nb::none())
+      .def("finish", &Caster::finish, nb::call_guard<nb::gil_scoped_release>());
 
   nb::class_<Walkers>(module, "Walkers")
       .def("__init__", &construct_walkers, nb::kw_only(), "segments"_a, "people"_a, "options"_a, "orca"_a)

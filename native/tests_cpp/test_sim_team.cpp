@@ -5,7 +5,9 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "check.hpp"
 #include "mrpbench_sim/team.hpp"
@@ -55,6 +57,54 @@ TEST("the failure of the first piece that fails is told, and the next call works
   std::vector<int> done(50);
   team.share(50, [&](std::size_t i) { done[i] = 1; });
   for (const int it : done) CHECK(it == 1);
+}
+
+TEST("others do what was begun while the caller goes on, and the end waits for all of it") {
+  Team team(2);
+  for (int call = 0; call < 300; ++call) {
+    std::vector<int> done(40);
+    std::atomic<bool> under_way{false};
+    team.begin(done.size(), [&](std::size_t i) {
+      under_way = true;
+      ++done[i];
+    });
+    if (call % 3 == 0) {
+      while (!under_way) std::this_thread::yield();
+    }
+    if (call % 2 == 0) team.finish();
+    std::vector<int> more(call % 5);
+    team.share(more.size(), [&](std::size_t i) { ++more[i]; });
+    CHECK(done == std::vector<int>(40, 1));
+    CHECK(more == std::vector<int>(call % 5, 1));
+  }
+}
+
+TEST("a failure of what was begun is told at the end") {
+  for (const int threads : {2, 4}) {
+    Team team(threads);
+    team.begin(30, [](std::size_t i) {
+      if (i % 10 == 7) throw std::out_of_range(std::to_string(i));
+    });
+    std::string told;
+    try {
+      team.finish();
+    } catch (const std::out_of_range& failure) {
+      told = failure.what();
+    }
+    CHECK(told == "7");
+    team.finish();
+  }
+}
+
+TEST("a team may end before what it has begun") {
+  for (int call = 0; call < 100; ++call) {
+    std::vector<int> done(20);
+    {
+      Team team(3);
+      team.begin(done.size(), [&](std::size_t i) { ++done[i]; });
+    }
+    for (const int it : done) CHECK(it <= 1);
+  }
 }
 
 TEST("a forked process works on alone, and ends") {

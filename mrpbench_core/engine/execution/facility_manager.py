@@ -37,6 +37,8 @@ class FacilityManager(Resources):
 
     def with_grants(self, view: FleetView, state: State) -> FleetView:
         """The view of a dispatcher, completed by the resources that robots may use now."""
+        if not self._held:
+            return view
         self.ready = tuple(
             (robot, name)
             for name, holders in self._held.items()

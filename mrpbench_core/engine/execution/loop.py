@@ -22,12 +22,13 @@ from mrpbench_core.engine.execution.observed_controller import observed
 from mrpbench_core.engine.execution.reactions import Reactions
 from mrpbench_core.engine.execution.recorder import Recorder, Sample
 from mrpbench_core.engine.execution.replanning import Revision
+from mrpbench_core.engine.execution.scans import Scans
 from mrpbench_core.engine.execution.standstill import Standstill
 from mrpbench_core.engine.execution.visits import Visits
 from mrpbench_core.model.common.arrays import Bool, Byte
 from mrpbench_core.model.execution.motion import Event, Mode, Motion
 from mrpbench_core.model.execution.movers import FASTEST
-from mrpbench_core.model.execution.observation import FleetObservation
+from mrpbench_core.model.execution.observation import FleetObservation, ScanBatch
 from mrpbench_core.model.execution.orders import FleetView, Orders
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.execution.state import Inputs, State
@@ -116,14 +117,16 @@ class ExecutionLoop(ControlLoop):
 
     def _sense(self) -> None:
         inputs, state = self._inputs, self._state
-        odometry = inputs.noise.odometry(state)
-        scans = self._checks.scans(inputs.simulation.scans(), self._now)
-        if scans:
-            scans = inputs.faults.scans(inputs.noise.scans(scans))
+        self._odometry, self._scans = inputs.noise.odometry(state), Scans(self._take_scans)
         truth = state.pose if self._needs_truth else None
-        estimate = self._checks.estimate(self._localizer.update(self._now, odometry, scans, truth))
-        self._observation = FleetObservation(estimate=estimate, odometry=odometry, level=state.level, scans=scans)
-        inputs.replanner.observe(self._observation)
+        localized = self._localizer.update(self._now, self._odometry, self._scans, truth)
+        self._estimate = self._checks.estimate(localized)
+        inputs.replanner.observe(self._estimate.pose, self._scans)
+
+    def _take_scans(self) -> tuple[ScanBatch, ...]:
+        inputs = self._inputs
+        scans = self._checks.scans(inputs.simulation.scans(), self._now)
+        return inputs.faults.scans(inputs.noise.scans(scans)) if scans else scans
 
     def _dispatch(self) -> None:
         """Release segments and grant resources; ask for a new plan, and adopt one that is due.
@@ -135,7 +138,7 @@ class ExecutionLoop(ControlLoop):
             revision=self._revision,
             reached=self._motion.reached,
             cleared=self._motion.cleared,
-            pose=self._observation.estimate.pose,
+            pose=self._estimate.pose,
             level=self._state.level,
             mode=self._motion.mode,
         )
@@ -214,6 +217,9 @@ class ExecutionLoop(ControlLoop):
 
     def _drive(self) -> None:
         """Command the robots; nothing is released to a robot that has not started yet."""
+        self._observation = FleetObservation(
+            estimate=self._estimate, odometry=self._odometry, level=self._state.level, scans=self._scans.batches
+        )
         orders, delay = self._orders, self._inputs.noise.start_delay
         if self._now < self._last_start:
             orders = attrs.evolve(orders, released=np.where(self._now < delay, 0, orders.released))

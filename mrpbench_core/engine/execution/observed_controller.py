@@ -6,9 +6,8 @@ import attrs
 
 from mrpbench_core.api.controller import Controller, ControllerSession, FleetControllerSession
 from mrpbench_core.engine.execution.evaluations import Evaluations
-from mrpbench_core.model.common.arrays import Bool, Float
+from mrpbench_core.model.common.arrays import Float
 from mrpbench_core.model.common.fleet import RobotModel
-from mrpbench_core.model.execution.evaluation import Evaluation
 from mrpbench_core.model.execution.observation import Observations
 from mrpbench_core.model.worlds.world import World
 
@@ -45,6 +44,8 @@ class _ObservedSession(FleetControllerSession):
     def __init__(self, session: FleetControllerSession, evaluations: Evaluations, period: float) -> None:
         super().__init__(session.sessions)
         self._session, self._evaluations, self._period = session, evaluations, period
+        for name in ("observe", "clear", "is_free", "reroute", "approach", "evaluation", "failure_reason"):
+            setattr(self, name, getattr(session, name))
 
     def command(self, observations: Observations) -> Float:
         """The commands of the controller; then what it weighed is collected."""
@@ -52,27 +53,3 @@ class _ObservedSession(FleetControllerSession):
         if getattr(twist, "shape", None) == (len(observations.robot), 2):  # else the navigator refuses it
             self._evaluations.collect(self._session, observations, twist, self._period)
         return twist
-
-    def clear(self, robot: int) -> None:
-        """As the controller."""
-        self._session.clear(robot)
-
-    def is_free(self, robot: int, poses: Float) -> Bool:
-        """As the controller."""
-        return self._session.is_free(robot, poses)
-
-    def reroute(self, observations: Observations, row: int) -> Float | None:
-        """As the controller."""
-        return self._session.reroute(observations, row)
-
-    def approach(self, observations: Observations, row: int, tolerance: float) -> Float | None:
-        """As the controller."""
-        return self._session.approach(observations, row, tolerance)
-
-    def evaluation(self, robot: int) -> Evaluation | None:
-        """As the controller."""
-        return self._session.evaluation(robot)
-
-    def failure_reason(self, robot: int) -> str:
-        """As the controller."""
-        return self._session.failure_reason(robot)

@@ -12,7 +12,7 @@ from mrpbench_core.engine.execution.commitments import commitments, not_ahead, r
 from mrpbench_core.engine.execution.cutting import driven, without
 from mrpbench_core.engine.execution.destinations import Destinations
 from mrpbench_core.model.common.arrays import Bool, Float, Int, Int32
-from mrpbench_core.model.execution.observation import FleetObservation
+from mrpbench_core.model.execution.observation import ScanBatch
 from mrpbench_core.model.execution.orders import FleetView
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.planning.plan import Paths, Plan, PlanResult
@@ -105,10 +105,10 @@ class Replanner:
         self._arrival[self.moves.robot] = self._first[self.moves.robot] + self.moves.segment + 1  # the last move counts
         self._leave: Int = np.append(self._paths.leave, 0)  # one more to index at the end
 
-    def observe(self, observation: FleetObservation) -> None:
-        """Take what the robots see now."""
-        if self._prediction is not None and observation.scans:
-            self._prediction.observe(observation.estimate.pose, observation.scans)
+    def observe(self, pose: Float, scans: Sequence[ScanBatch]) -> None:
+        """Take what the robots at `pose` f8[n,3] see now."""
+        if self._prediction is not None and scans:
+            self._prediction.observe(pose, scans)
 
     def reason(self, now: float, view: FleetView, wish: str | None) -> str | None:
         """Return the reason why a new plan is needed now, or None; `wish` is that of others."""

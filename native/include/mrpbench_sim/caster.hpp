@@ -33,9 +33,17 @@ class Caster {
 
   /// Ranges in metres of the lidars of `scanning`, row by row; infinity = no return. `centres` and `radius` are those
   /// of all discs, of which the first are the robots; none sees itself. `leaves` are solid besides the segments.
-  void scan(std::span<const int> scanning, std::span<const Pose> poses, std::span<const Point> centres,
+  void scan(std::span<const int> scanning, std::span<const Pose> poses, std::vector<Point> centres,
             std::span<const double> radius, std::span<const Segment> leaves, const Outlines& outlines,
-            std::span<double> ranges) const;
+            std::span<double> ranges) {
+    begin(scanning, poses, std::move(centres), radius, leaves, outlines, ranges, nullptr);
+    finish();
+  }
+  /// The same in two calls, between which the other threads go on; `owner` keeps what is passed until `finish`.
+  void begin(std::span<const int> scanning, std::span<const Pose> poses, std::vector<Point> centres,
+             std::span<const double> radius, std::span<const Segment> leaves, const Outlines& outlines,
+             std::span<double> ranges, std::shared_ptr<const void> owner);
+  void finish() { team_.finish(); }
 
   int beams() const { return lidar_.beams; }
 
@@ -44,6 +52,7 @@ class Caster {
     Point start, along;
     double reach;  // (range * length)^2
   };
+  struct Scene;
   /// Beams first, first + 1, ..., which may be negative or more than there are.
   struct Span {
     long first, count;
@@ -57,12 +66,12 @@ class Caster {
   std::size_t beam(long index) const;
 
   Lidar lidar_;
-  std::unique_ptr<Team> team_;
   std::vector<Wall> walls_;
   SegmentBuckets buckets_;
   std::vector<double> cosine_, sine_;
   double per_radian_, padding_;
   long edge_;
+  Team team_;
 };
 
 }  // namespace mrpbench::sim

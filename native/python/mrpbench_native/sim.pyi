@@ -1,7 +1,8 @@
 """Robots, people, contacts and lidars in the plane, in C++. Plain arrays in, new arrays out; metres, radians, seconds.
 
 Segments are f8[S,4] x1, y1, x2, y2, solid on their left. All functions raise ValueError for invalid data and
-let other threads run. Only one thread at a time may use a `Plane`; any number of threads may use a `Caster`.
+let other threads run. Only one thread at a time may use a `Plane`; any number of threads may use a `Caster`
+of one thread.
 """
 
 from typing import Any
@@ -71,6 +72,19 @@ class Caster:
         solid besides the segments. Robot i is its disc, or `sides[first[i]:first[i + 1]]` within it: f8[K,4] in the
         robot's frame, solid on their left, and i4[n+1].
         """
+    def begin(
+        self,
+        ranges: NDArray[np.float64],
+        robots: NDArray[np.int32],
+        pose: NDArray[np.float64],
+        movers: NDArray[np.float64],
+        radius: NDArray[np.float64],
+        leaves: NDArray[np.float64] | None = None,
+        sides: NDArray[np.float64] | None = None,
+        first: NDArray[np.int32] | None = None,
+    ) -> None:
+        """As `scan`, but `ranges` f8[k,beams] are complete after `finish`; other threads go on with it until then."""
+    def finish(self) -> None: ...
 
 class Walkers:
     """People who walk by social forces or by optimal reciprocal collision avoidance. All stay out of walls, robots,

@@ -30,9 +30,9 @@ void Fleet::fetch(const Robot& robot) {
 }
 
 void Fleet::see(double now, std::span<const std::int32_t> robots, std::span<const Pose> poses,
-                std::span<const double> ranges) {
+                std::span<const double> ranges, std::shared_ptr<const void> owner) {
   const std::size_t beams = robots.empty() ? 0 : ranges.size() / robots.size();
-  team_.share(robots.size(), [&](std::size_t row) {
+  team_.begin(robots.size(), [=, this, owner = std::move(owner)](std::size_t row) {
     Robot& robot = *robots_[static_cast<std::size_t>(robots[row])];
     const Pose& pose = poses[static_cast<std::size_t>(robots[row])];
     robot.costmap.see(pose, robot.options.sensor, ranges.subspan(row * beams, beams));
@@ -42,6 +42,7 @@ void Fleet::see(double now, std::span<const std::int32_t> robots, std::span<cons
 
 void Fleet::command(double now, std::span<const Request> requests, std::span<Twist> commands,
                     const ExtraOfRobot& extra) {
+  team_.finish();
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto answer = [&](std::size_t i) {
     const Request& it = requests[i];
@@ -65,24 +66,24 @@ void Fleet::command(double now, std::span<const Request> requests, std::span<Twi
   }
 }
 
-bool Fleet::is_free(std::size_t robot, Pose pose) const {
-  const Robot& it = *robots_.at(robot);
+bool Fleet::is_free(std::size_t index, Pose pose) const {
+  const Robot& it = robot(index);
   return local::is_free(it.costmap, pose, it.options.by_radius);
 }
 
-std::optional<std::vector<Point>> Fleet::reroute(std::size_t robot, Point place, const Path& path) const {
-  const Robot& it = *robots_.at(robot);
+std::optional<std::vector<Point>> Fleet::reroute(std::size_t index, Point place, const Path& path) const {
+  const Robot& it = robot(index);
   return local::reroute(it.costmap, place, path.first, path.rest, it.options.max_detour);
 }
 
-std::optional<std::vector<Point>> Fleet::approach(std::size_t robot, Point place, const Path& path,
+std::optional<std::vector<Point>> Fleet::approach(std::size_t index, Point place, const Path& path,
                                                   double tolerance) const {
-  const Robot& it = *robots_.at(robot);
+  const Robot& it = robot(index);
   return local::approach(it.costmap, place, path.first, path.rest, it.options.max_detour, tolerance);
 }
 
-std::optional<std::vector<Point>> Fleet::plan(double now, std::size_t robot, Pose pose, Point goal, double tolerance) {
-  Robot& it = *robots_.at(robot);
+std::optional<std::vector<Point>> Fleet::plan(double now, std::size_t index, Pose pose, Point goal, double tolerance) {
+  Robot& it = robot(index);
   refresh(it, now, pose);
   return local::plan(it.costmap, {pose.x, pose.y}, goal, tolerance);
 }

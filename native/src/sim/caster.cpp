@@ -1,7 +1,9 @@
 #include "mrpbench_sim/caster.hpp"
 
 #include <limits>
+#include <mutex>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "mrpbench_sim/disc_hash.hpp"
@@ -33,11 +35,11 @@ Lidar sound(const Lidar& lidar) {
 
 Caster::Caster(std::vector<Segment> segments, const Lidar& lidar, int threads)
     : lidar_(sound(lidar)),
-      team_(std::make_unique<Team>(threads)),
       buckets_(segments, lidar.range, bucket_size(lidar.range)),
       per_radian_(lidar.beams / kTurn),
       padding_(kRoughAngle * per_radian_),
-      edge_(1 + static_cast<long>(2 * padding_)) {
+      edge_(1 + static_cast<long>(2 * padding_)),
+      team_(threads) {
   for (const Segment& it : segments) walls_.push_back(wall(it));
   for (int i = 0; i < lidar.beams; ++i) {
     cosine_.push_back(std::cos(i * (kTurn / lidar.beams)));
@@ -67,18 +69,29 @@ std::vector<Caster::Wall> Caster::placed(const Outlines& outlines, std::span<con
   return found;
 }
 
-void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, std::span<const Point> centres,
-                  std::span<const double> radius, std::span<const Segment> leaves, const Outlines& outlines,
-                  std::span<double> ranges) const {
-  std::vector<Wall> moving;
-  for (const Segment& it : leaves) moving.push_back(wall(it));
-  const std::vector<Wall> sides = placed(outlines, poses);
+/// What all lidars of a scan see, found by the first thread that needs it.
+struct Caster::Scene {
+  std::once_flag found;
+  std::vector<Point> centres;
+  std::vector<Wall> moving, sides;
   double largest = 0;
-  for (const double it : radius) largest = std::max(largest, it);
-  DiscHash hash((lidar_.range + largest) / 2);
-  hash.build(centres);
-  const auto beams = static_cast<std::size_t>(lidar_.beams);
-  team_->share(scanning.size(), [&](std::size_t row) {
+  std::optional<DiscHash> hash;
+};
+
+void Caster::begin(std::span<const int> scanning, std::span<const Pose> poses, std::vector<Point> centres,
+                   std::span<const double> radius, std::span<const Segment> leaves, const Outlines& outlines,
+                   std::span<double> ranges, std::shared_ptr<const void> owner) {
+  const auto scene = std::make_shared<Scene>();
+  scene->centres = std::move(centres);
+  team_.begin(scanning.size(), [=, this, owner = std::move(owner)](std::size_t row) {
+    std::call_once(scene->found, [&] {
+      for (const Segment& it : leaves) scene->moving.push_back(wall(it));
+      scene->sides = placed(outlines, poses);
+      for (const double it : radius) scene->largest = std::max(scene->largest, it);
+      scene->hash.emplace((lidar_.range + scene->largest) / 2).build(scene->centres);
+    });
+    const auto& first = outlines.first;
+    const auto beams = static_cast<std::size_t>(lidar_.beams);
     const int robot = scanning[row];
     const Pose& pose = poses[static_cast<std::size_t>(robot)];
     if (!somewhere({pose.x, pose.y}) || !std::isfinite(pose.yaw)) throw std::invalid_argument("poses must be finite");
@@ -91,16 +104,16 @@ void Caster::scan(std::span<const int> scanning, std::span<const Pose> poses, st
     for (const std::int32_t wall : buckets_.near(origin)) {
       see_wall(walls_[static_cast<std::size_t>(wall)], origin, facing, nearness);
     }
-    for (const Wall& it : moving) see_wall(it, origin, facing, nearness);
-    hash.near(origin, lidar_.range + largest, [&](int disc) {
+    for (const Wall& it : scene->moving) see_wall(it, origin, facing, nearness);
+    scene->hash->near(origin, lidar_.range + scene->largest, [&](int disc) {
       const auto at = static_cast<std::size_t>(disc);
       if (disc == robot) return;
-      if (at + 1 >= outlines.first.size()) {
-        see_disc(centres[at] - origin, radius[at], facing, nearness);
+      if (at + 1 >= first.size()) {
+        see_disc(scene->centres[at] - origin, radius[at], facing, nearness);
         return;
       }
-      for (int side = outlines.first[at]; side < outlines.first[at + 1]; ++side) {
-        see_wall(sides[static_cast<std::size_t>(side)], origin, facing, nearness);
+      for (int side = first[at]; side < first[at + 1]; ++side) {
+        see_wall(scene->sides[static_cast<std::size_t>(side)], origin, facing, nearness);
       }
     });
     for (std::size_t i = 0; i < beams; ++i) {

@@ -45,8 +45,11 @@ def look(now, pose, twist, path, scans=()):
     )
 
 
-def wander(session, robots, periods=40, seed=1):
-    """Commands and poses of robots that follow straight paths among things that only they see."""
+def wander(session, robots, periods=40, seed=1, ahead=False):
+    """Commands and poses of robots that follow straight paths among things that only they see.
+
+    `ahead`: scans are observed before the command, and a costmap is read at once.
+    """
     random = np.random.default_rng(seed)
     count = len(robots)
     pose = random.uniform((-9, -9, -3), (9, 9, 3), (count, 3))
@@ -56,7 +59,14 @@ def wander(session, robots, periods=40, seed=1):
         beams = random.uniform(0.5, 4.0, (count, 90))
         scan = ScanBatch(stamp=period * PERIOD, robot=np.arange(count), ranges=beams)
         path = np.stack([pose[:, :2], goal], axis=1)
-        said = session.command(look(period * PERIOD, pose, twist, path, (scan,) if period % 4 == 0 else ()))
+        seen = look(period * PERIOD, pose, twist, path, (scan,) if period % 4 == 0 else ())
+        if ahead:
+            session.observe(seen.now, seen.scans, pose)
+            read = session.costmap(period % count)[0]
+        said = session.command(seen)
+        if ahead and seen.scans:
+            assert read.any()
+            assert read.tobytes() == session.costmap(period % count)[0].tobytes()
         commands.append(said)
         twist = np.nan_to_num(said)
         pose = driven(pose, twist, PERIOD)
@@ -68,6 +78,16 @@ def wander(session, robots, periods=40, seed=1):
 def test_results_do_not_depend_on_threads(threads):
     robots = (BURGER,) * 7 + (WAFFLE,) * 2
     one, other = (wander(Dwb(threads=number).start_fleet(robots, NOWHERE, PERIOD), robots) for number in (1, threads))
+    assert one[0].tobytes() == other[0].tobytes()
+
+
+@pytest.mark.parametrize("threads", [1, 3])
+def test_scans_may_be_observed_before_the_command(threads):
+    robots = (BURGER,) * 7 + (WAFFLE,) * 2
+    one, other = (
+        wander(Dwb(threads=threads).start_fleet(robots, NOWHERE, PERIOD), robots, ahead=ahead)
+        for ahead in (False, True)
+    )
     assert one[0].tobytes() == other[0].tobytes()
 
 

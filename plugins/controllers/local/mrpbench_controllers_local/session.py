@@ -74,22 +74,33 @@ class LocalSession(FleetControllerSession):
         self.prediction: PredictorSession | None = None
         """Predicts the objects that the robots see."""
         self._observations: Observations | None = None
+        self._seen: tuple[ScanBatch, ...] | None = None
+        """The scans of the next command, if it is known what they show."""
         self._row: dict[int, int] = {}
+
+    def observe(self, now: float, scans: tuple[ScanBatch, ...], fleet_pose: Float) -> None:
+        """Begin to update the costmaps that are due; other threads go on with it until one is read."""
+        self._seen = scans
+        if self.prediction is not None:
+            scans = self._foresee(self.prediction, now, scans, fleet_pose)
+        for batch in scans:
+            self._fleet.see(batch.stamp, batch.robot, fleet_pose, batch.ranges)
 
     def command(self, observations: Observations) -> Float:
         """The commands f8[k,2] of all rows."""
-        scans = observations.scans if self.prediction is None else self._foresee(self.prediction, observations)
-        for batch in scans:
-            self._fleet.see(batch.stamp, batch.robot, observations.fleet_pose, batch.ranges)
-        self._observations = observations
+        if self._seen is not observations.scans:
+            self.observe(observations.now, observations.scans, observations.fleet_pose)
+        self._observations, self._seen = observations, None
         if self._scored:
             self._row = {robot: row for row, robot in enumerate(observations.robot.tolist())}
         return self._fleet.command(observations, self._score if self._scored else None)
 
-    def _foresee(self, prediction: PredictorSession, observations: Observations) -> tuple[ScanBatch, ...]:
+    def _foresee(
+        self, prediction: PredictorSession, now: float, scans: tuple[ScanBatch, ...], fleet_pose: Float
+    ) -> tuple[ScanBatch, ...]:
         """Tell the robots where objects will be; returns the scans without these objects, for the costmaps."""
-        scans = prediction.observe(observations.fleet_pose, observations.scans)
-        predicted = prediction.predict(observations.now)
+        scans = prediction.observe(fleet_pose, scans)
+        predicted = prediction.predict(now)
         if len(predicted.robot):
             self._fleet.foresee(predicted.robot, predicted.place, predicted.radius, predicted.step)
         return scans

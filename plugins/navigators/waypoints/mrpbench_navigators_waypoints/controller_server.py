@@ -19,6 +19,7 @@ class ControllerServer:
 
     def __init__(self, controllers: FleetControllerSession, name: str, failure_tolerance: float) -> None:
         self._controllers, self._name, self._failure_tolerance = controllers, name, failure_tolerance
+        self.observe = controllers.observe
         self._without: dict[int, float] = {}
         """Robots that have no admissible command, and when each last had one, or did not need one."""
         self._before = 0.0
@@ -34,20 +35,15 @@ class ControllerServer:
         missing = self._check(command, observations.robot)
         if self._without or missing is not None:
             robots = [] if missing is None else observations.robot[missing].tolist()
-            waiting = set(observations.robot.tolist()).difference(robots)
-            self._without = {robot: since for robot, since in self._without.items() if robot not in waiting}
-            self._without = dict.fromkeys(robots, self._before) | self._without
+            self._without = {robot: self._without.get(robot, self._before) for robot in robots}
         return command, missing
 
-    def have_failed(self, now: float, following: Bool) -> list[int]:
-        """Return the robots that follow and have had no command for too long, in order; their time begins anew."""
-        self._before, failed = now, []
-        for robot, since in sorted(self._without.items()):
-            if not following[robot]:
-                del self._without[robot]
-            elif now - since > self._failure_tolerance:
-                self._without[robot] = now
-                failed.append(robot)
+    def have_failed(self, now: float) -> list[int]:
+        """Return the robots that have had no command for too long, in order; their time begins anew."""
+        self._before = now
+        failed = [robot for robot, since in self._without.items() if now - since > self._failure_tolerance]
+        for robot in failed:
+            self._without[robot] = now
         return failed
 
     def failure_reason(self, robot: int) -> str:

@@ -105,7 +105,7 @@ class RouteFollower:
         """u1[n]: robots that have to drive on, or to take a yaw; a robot in a lift has not."""
         self.following: Bool = state["following"].view(bool)
         """bool[n]: robots that a controller has to drive."""
-        self._were_under_way, self._modes = b"", self.under_way
+        self._did, self._modes = (b"", b"", b""), self.under_way
         self._counts, self._stuck = (state["reached"], state["cleared"]), state["stuck"].view(bool)
         self.adopt(routes)
 
@@ -149,10 +149,13 @@ class RouteFollower:
         return Targets(rows=self._targets, stuck=self._stuck if is_stuck else None, due=due, blocked=blocked)
 
     def modes(self) -> Byte:
-        """The modes u1[n] of robots that neither recover nor have given up; the same array while none changes."""
-        under_way = self.under_way.tobytes()
-        if under_way != self._were_under_way:
-            self._were_under_way, self._modes = under_way, read_only(_MODES.take(self.under_way))
+        """The modes u1[n]; the same array while none changes."""
+        recovering, aborted = self.activities.recovering, self.activities.aborted
+        doing = self.under_way.tobytes(), recovering.tobytes(), aborted.tobytes()
+        if doing != self._did:
+            modes = _MODES.take(self.under_way)
+            modes[recovering], modes[aborted] = Mode.RECOVERING, Mode.ABORTED
+            self._did, self._modes = doing, read_only(modes)
         return self._modes
 
     def ask_at_once(self, robot: int) -> None:

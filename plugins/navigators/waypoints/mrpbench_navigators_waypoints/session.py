@@ -8,7 +8,7 @@ import numpy as np
 from mrpbench_core.api.navigator import NavigatorSession
 from mrpbench_core.model.common.arrays import Bool, Float, Int32, read_only
 from mrpbench_core.model.common.fleet import Fleet
-from mrpbench_core.model.execution.motion import Event, Mode, Motion
+from mrpbench_core.model.execution.motion import Event, Motion
 from mrpbench_core.model.execution.observation import FleetObservation, Observations
 from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.execution.route import Route
@@ -46,6 +46,7 @@ class WaypointsSession(NavigatorSession):
         """Command all robots for one control period."""
         pose, measured = observation.estimate.pose, observation.odometry.twist
         follower, recoveries, rotations = self.follower, self.recoveries, self.rotations
+        self.controllers.observe(now, observation.scans, pose)
         follower.update(pose, measured, orders.released, observation.level)
         if orders.in_step or rotations:
             rotations.update(now, orders)
@@ -57,20 +58,16 @@ class WaypointsSession(NavigatorSession):
         if rotations:
             able = ~recoveries.aborted & ~recoveries.recovering
             stuck = rotations.command(now, pose, able, twist) | (False if stuck is None else stuck)
-        failed = self.controllers.have_failed(now, follower.following)
+        failed = self.controllers.have_failed(now)
         if failed or stuck is not None:
             self._recover(now, observation, stuck, failed, twist, events)
-        mode = follower.modes()
         if recoveries:
             events += recoveries.step(now, pose, measured, twist)
-            mode = mode.copy()
-            mode[recoveries.recovering] = Mode.RECOVERING
-            mode[recoveries.aborted] = Mode.ABORTED
         return Motion(
             twist=read_only(twist),
             reached=follower.reached,
             cleared=follower.cleared,
-            mode=mode,
+            mode=follower.modes(),
             events=tuple(events),
         )
 

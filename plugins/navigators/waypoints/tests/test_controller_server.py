@@ -43,5 +43,5 @@ def test_a_robot_fails_when_it_has_followed_without_a_command_for_longer_than_to
         assert (missing.nonzero()[0].tolist() == without) if without else (missing is None)
         last[controllers.has | ~following] = now
         expected = np.flatnonzero(now - last > tolerance).tolist()
-        assert server.have_failed(now, following) == expected
+        assert server.have_failed(now) == expected
         last[expected] = now

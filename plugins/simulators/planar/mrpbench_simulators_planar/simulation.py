@@ -77,7 +77,10 @@ class PlanarSimulation(Simulation):
         }
         self._movers = MoverDiscs(self._layout, np.asarray(movers, float))
         self._state = self._observe()
-        self._scans = self._take_scans(self._schedule.due(0))
+        self._scans: tuple[ScanBatch, ...] = ()
+        self._casting: Caster | None = None
+        """Takes scans that are not complete yet."""
+        self._take_scans(self._schedule.due(0))
 
     @property
     def state(self) -> State:
@@ -86,6 +89,7 @@ class PlanarSimulation(Simulation):
 
     def step(self, inputs: Inputs) -> State:
         """Advance by one control period."""
+        self._complete_scans()
         self._movers.update(inputs)
         if inputs.facilities:
             self._operate(inputs.facilities)
@@ -93,7 +97,7 @@ class PlanarSimulation(Simulation):
         self._periods += 1
         self._state = self._observe()
         if due := self._schedule.due(self._periods):
-            self._scans += self._take_scans(due)
+            self._take_scans(due)
         return self._state
 
     def _observe(self) -> State:
@@ -122,20 +126,26 @@ class PlanarSimulation(Simulation):
 
     def scans(self) -> tuple[ScanBatch, ...]:
         """Scans taken since the last call."""
+        self._complete_scans()
         taken, self._scans = self._scans, ()
         return taken
 
-    def _take_scans(self, due: Sequence[tuple[Lidar, Int32]]) -> tuple[ScanBatch, ...]:
-        """Scans of the robots whose turn it is now, by lidar."""
+    def _take_scans(self, due: Sequence[tuple[Lidar, Int32]]) -> None:
+        """Begin with the scans of the robots whose turn it is now, by lidar; other threads go on with them."""
         stamp = self._periods * self._period
         radius, discs = self._robot_radius, np.ascontiguousarray(self._movers.scan_discs)
         if len(discs):
             radius = np.concatenate([radius, self._movers.scan_radius])
-        batches = []
         for lidar, robots in due:
-            ranges = self._casters[lidar].scan(robots, self._pose, discs, radius, self._leaves)
-            batches.append(ScanBatch(stamp=stamp, robot=robots, ranges=ranges))
-        return tuple(batches)
+            self._complete_scans()
+            self._casting, ranges = self._casters[lidar], np.empty((len(robots), lidar.beams))
+            self._casting.begin(ranges, robots, self._pose, discs, radius, self._leaves)
+            self._scans += (ScanBatch(stamp=stamp, robot=robots, ranges=read_only(ranges)),)
+
+    def _complete_scans(self) -> None:
+        if self._casting is not None:
+            self._casting.finish()
+            self._casting = None
 
     def close(self) -> None:
         """Nothing is held."""
