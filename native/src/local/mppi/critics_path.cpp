@@ -65,18 +65,23 @@ class GoalAngle : public Critic {
 
   bool score(const Batch& batch, std::span<float> raw) override {
     if (!batch.goal_yaw || batch.path.length > static_cast<float>(options_.threshold_to_consider)) return true;
-    const float share = 1.0f / static_cast<float>(batch.steps()), goal = *batch.goal_yaw;
-    for (std::size_t t = 0; t < batch.steps(); ++t) {
-      const float* const yaw = batch.yaw[t];
-      for (std::size_t k = 0; k < raw.size(); ++k) {
-        const float off = std::abs(wrapped(yaw[k] - goal));
-        raw[k] += (options_.symmetric_yaw_tolerance ? std::min(off, kPi - off) : off) * share;
-      }
-    }
+    add(batch, *batch.goal_yaw, options_.symmetric_yaw_tolerance, raw);
     return true;
   }
 
  private:
+  MRPBENCH_WIDE static void add(const Batch& batch, float goal, bool symmetric, std::span<float> raw) {
+    const float share = 1.0f / static_cast<float>(batch.steps());
+    for (std::size_t t = 0; t < batch.steps(); ++t) {
+      const float* const yaw = batch.yaw[t];
+      MRPBENCH_NO_OVERLAP
+      for (std::size_t k = 0; k < raw.size(); ++k) {
+        const float off = std::abs(wrapped(yaw[k] - goal));
+        raw[k] += (symmetric ? std::min(off, kPi - off) : off) * share;
+      }
+    }
+  }
+
   Options options_;
 };
 
