@@ -164,6 +164,7 @@ class Replanner:
         constrained = asked if self._prediction is None else self._prediction.constrained(asked, now)
         result, fault, late = self._ask(constrained)
         if fault and constrained is not asked:
+            reason = f"{reason}; not around what is predicted: {fault}"
             result, fault, later = self._ask(asked)
             late += later
         due += late

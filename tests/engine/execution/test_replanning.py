@@ -123,7 +123,8 @@ def test_a_planner_that_cannot_keep_away_from_what_is_predicted_is_asked_without
     request(asked, 4.0, "4 s have passed")
     assert asked_for == [3, 2]
     assert asked.take_due(4.5) is None
-    assert not asked.take_due(4.75).fault
+    revision = asked.take_due(4.75)
+    assert (revision.fault, revision.reason) == ("", "4 s have passed; not around what is predicted: no plan")
 
 
 @pytest.mark.parametrize(("planner", "fits"), [("prioritized", True), ("token_passing", False), ("example", False)])

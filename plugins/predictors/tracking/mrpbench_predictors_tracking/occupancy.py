@@ -59,7 +59,7 @@ class Occupancy:
         vertices, edges = len(problem.roadmap.position), len(problem.roadmap.edges)
         paths, starts, begins = [], [], []
         for place, visits in groupby(stays, key=lambda stay: stay.place):
-            path = _path(list(visits), edges + 2 * place, 0 if not len(problem.since) else None)
+            path = _path(list(visits), edges + 2 * place, None if problem.since.any() else 0)
             paths.append(path)
             starts.append(vertices + place)
             begins.append(int(path.enter[0]))
@@ -115,7 +115,7 @@ class Occupancy:
             near = np.flatnonzero(((position >= low) & (position <= high)).all(axis=1))
             met[near] |= np.hypot(*(position[near, None] - place).transpose(2, 0, 1)) < distance
         last = np.iinfo(np.int64).max if problem.horizon is None else problem.horizon - 1
-        first = 1 if not len(problem.since) else int(problem.since.min()) + 1
+        first = int(problem.begins.min()) + 1
         now_ticks, per_step = now / roadmap.tick, prediction.step / roadmap.tick
         for index in np.flatnonzero(met.any(axis=1)).tolist():
             ticks = np.floor(now_ticks + np.flatnonzero(met[index]) * per_step + 1e-9).astype(np.int64)

@@ -12,9 +12,13 @@ from mrpbench_predictors_tracking.occupancy import Occupancy
 from mrpbench_core.api import Budget
 from mrpbench_core.api.predictor import Prediction
 from mrpbench_core.checking.plan import check_plan
+from mrpbench_core.config.study import load_study
+from mrpbench_core.engine.run import execute
 from mrpbench_core.model.planning.plan import RobotPath
 from mrpbench_core.model.planning.problem import Feature, Problem, features_of
 from mrpbench_core.model.planning.roadmap import Roadmap
+from mrpbench_core.store.paths import RunPaths
+from mrpbench_core.store.recording import Recording
 
 BUDGET = Budget(wall_s=10.0, memory_bytes=2**30, seed=0)
 
@@ -48,6 +52,7 @@ def problem(roadmap: Roadmap, starts: list[int], goals: list[int], footprints: b
         ready=np.zeros(count),
         goals=tuple(((goal,),) for goal in goals),
         commitments=[RobotPath(edge=np.empty(0), enter=np.empty(0), leave=np.empty(0))] * count,
+        since=np.zeros(count),  # as in executions, also for planners without `Feature.SINCE`
     )
     return attrs.evolve(found, features=features_of(found) | ({Feature.FOOTPRINTS} if footprints else frozenset()))
 
@@ -130,3 +135,31 @@ def test_plans_meet_no_object_while_a_robot_could_touch_it(seed: int, footprints
             for way, radius in zip(prediction.place, prediction.radius, strict=True):
                 gaps = np.hypot(*(way[inside] - roadmap.position[visited[index]]).T)
                 assert (gaps >= radius + 0.2 - 1e-9).all()
+
+
+def test_plans_of_an_execution_lead_around_what_is_predicted(tmp_path) -> None:
+    study = {
+        "world": "station",
+        "scenario": {"plugin": "random", "robots": 3},
+        "roadmap": "grid",
+        "planner": {"plugin": "ecbs", "w": 1.2},
+        "dispatcher": {"plugin": "adg", "lookahead": 1},
+        "simulator": "planar",
+        "crowds": [{"plugin": "social_force", "people": 20}],
+        "limits": {"execution": "20 s"},
+    }
+
+    def driven(name: str, replanning: dict) -> tuple[list[str], np.ndarray]:
+        (point,) = load_study({**study, "replanning": {"period": 4.0, **replanning}}).runs
+        paths = RunPaths(recording=tmp_path / f"{name}.zip", exports=tmp_path / name)
+        execute(point.config, name, paths)
+        recording = Recording(paths.recording)
+        events = zip(recording.channel("event_kind"), recording.channel("event_detail"), strict=True)
+        found = [str(detail) for kind, detail in events if kind == "replan"]
+        return found, recording.channel("truth")
+
+    without, straight = driven("without", {})
+    around, led = driven("around", {"prediction": {"plugin": "constant_velocity", "horizon": 8.0}})
+    assert len(without) == len(around) == 4
+    assert not any("predicted" in detail for detail in around)
+    assert not np.array_equal(straight, led)
