@@ -6,6 +6,7 @@ from pathlib import Path
 import attrs
 
 from mrpbench_core.engine.loading.runs import StudyRun, StudyRuns
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.store.results import Results
 from mrpbench_search.asking.requests import Requests
 from mrpbench_search.asking.variants import read_variants
@@ -74,6 +75,25 @@ class CaseRuns:
         """The records of a case, with access to its recordings."""
         assert self.results is not None
         return Results(self.results.folder, only=[record["run_id"] for record in judged.records])
+
+    def as_assigned(self, judged: Judged) -> Case:
+        """Return the case with its goals in the order of the robots that got them in its first run.
+
+        `Case.without_robot` then leaves out a robot with its own goal, and an assigner of least cost, or one that takes
+        the cheapest pairs first, assigns the others as before.
+        """
+        case, tasks = judged.case, judged.case.scenario.tasks
+        if case.stream is not None or len(tasks) != case.robots:
+            return case
+        try:
+            recording = self.results_of(judged).recording(judged.records[0]["run_id"])
+        except InputError:  # the run was not recorded
+            return case
+        try:
+            assigned = recording.instance().assigned
+        finally:
+            recording.close()
+        return case if assigned is None else case.with_tasks(tuple(tasks[index] for index in assigned))
 
     def points(self, case: Case) -> list[StudyRun]:
         """Return the runs of a case: one for each candidate."""

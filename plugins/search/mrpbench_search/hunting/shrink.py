@@ -25,6 +25,10 @@ def shrink(failing: Judged, runs: CaseRuns, same: Callable[[Judged], bool]) -> t
         same: tells whether a case fails as the first one does.
     """
     smallest, parts = failing, 2
+    try:
+        smallest = _first([runs.as_assigned(failing)], runs, same) or failing
+    except SearchEnded:
+        return smallest, False
     while True:
         smaller = list(_smaller(smallest.case, parts))
         try:

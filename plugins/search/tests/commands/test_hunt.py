@@ -1,6 +1,7 @@
 """`mrpbench hunt STUDY --for FAILURE`."""
 
 import json
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -65,6 +66,21 @@ def test_a_fault_at_one_junction_is_found_shrunk_and_repeated(hall):
     (record,) = load("again")
     assert record["status"] == "plan_invalid"
     assert record["error"]["message"].partition(" (")[0] == failure["reason"].partition(" (")[0]
+
+
+def test_the_robots_of_the_smallest_case_drive_as_in_the_case_that_was_found(hall):
+    def ways(run_id):
+        with closing(runs.recording(run_id)) as recording:
+            problem = recording.instance().problem
+        return set(zip(problem.start.tolist(), problem.goals, strict=True))
+
+    words = ("planner=example", "assigner=hungarian", "--for", "planning.makespan > 0", "--most", "1", "--json")
+    code, output, errors = hall("hunt", "hall.yaml", *words)
+    assert code == 1, errors
+    (failure,) = json.loads(output)["failures"]
+    assert (failure["robots"], failure["found_after"]) == (1, 1)
+    runs = load("results/hall-hunt")
+    assert ways(failure["runs"][0]) <= ways(next(iter(runs))["run_id"])
 
 
 @pytest.mark.parametrize(

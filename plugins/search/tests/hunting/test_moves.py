@@ -12,6 +12,7 @@ from mrpbench_search.hunting.runs import Judged
 from mrpbench_search.hunting.search import Hunt
 from mrpbench_search.hunting.shrink import shrink
 from mrpbench_search.hunting.space import Space, _kinds, _ways
+from scipy.optimize import linear_sum_assignment
 
 from mrpbench_core.model.planning.scenario import Scenario, Task
 
@@ -172,6 +173,9 @@ class Runs:
     def signature(self, judged, kind):
         return kind, kind
 
+    def as_assigned(self, judged):
+        return judged.case
+
 
 @pytest.mark.parametrize("needed", [{0, 3}, {2}, {0, 1, 2, 3}])
 def test_shrinking_leaves_exactly_the_robots_that_a_failure_needs(needed):
@@ -186,6 +190,30 @@ def test_shrinking_leaves_exactly_the_robots_that_a_failure_needs(needed):
     assert smallest.case.robots == len(needed)
     assert smallest.case.events == ()
     assert runs.asked < 40
+
+
+def test_a_robot_is_left_out_with_the_goal_that_the_assigner_gave_it():
+    def assigned(case):
+        goals = np.array([task.goals[0, :2] for task in case.tasks])
+        return linear_sum_assignment(np.linalg.norm(case.scenario.start[:, None, :2] - goals, axis=2))[1]
+
+    def ways(case):
+        ends = zip(case.scenario.start.tolist(), assigned(case).tolist(), strict=True)
+        return {(*start[:2], *case.tasks[goal].goals[0, :2].tolist()) for start, goal in ends}
+
+    class Assigning(Runs):
+        def as_assigned(self, judged):
+            return judged.case.with_tasks(tuple(judged.case.tasks[goal] for goal in assigned(judged.case)))
+
+    for seed in range(20):
+        rng = np.random.default_rng(seed)
+        starts, goals = rng.uniform(0, SIDE, (2, 8, 3))
+        tasks = tuple(Task(goals=goals[[index]]) for index in range(8))
+        case = Case(scenario=Scenario(start=starts, start_level=np.zeros(8, np.int16), tasks=tasks), seed=0)
+        needed = set(sorted(ways(case))[:2])
+        runs = Assigning(lambda case, needed=needed: needed <= ways(case))
+        smallest, _ = shrink(runs.judge([case], "case")[0], runs, lambda judged: bool(judged.verdict.failures))
+        assert smallest.case.robots == 2, seed
 
 
 def test_shrinking_shortens_faults():
