@@ -16,18 +16,19 @@ from mrpbench_search.asking.budget import read_budget
 from mrpbench_search.asking.requests import Requests
 
 
-def add_search(parser: argparse.ArgumentParser, folder: str) -> None:
+def add_search(parser: argparse.ArgumentParser, folder: str, budget: str | None = None) -> None:
     """Declare a study and how its runs are done.
 
     Args:
         parser: of the command.
         folder: the default of `--out`, for the help.
+        budget: the default of `--budget`; None: no limit.
     """
     add_configuration(parser)
-    add_execution(parser, folder)
+    add_execution(parser, folder, budget)
 
 
-def add_execution(parser: argparse.ArgumentParser, folder: str) -> None:
+def add_execution(parser: argparse.ArgumentParser, folder: str, budget: str | None = None) -> None:
     """Declare how runs are done; see `add_search`."""
     parser.add_argument("--out", metavar="DIR", help=f"results folder (default: {folder})")
     add_executor(parser)
@@ -36,8 +37,10 @@ def add_execution(parser: argparse.ArgumentParser, folder: str) -> None:
     )
     parser.add_argument(
         "--budget",
+        default=budget,
         metavar="X",
-        help="end the search before a step that exceeds it: `10min` of wall time, or `300runs` (default: no limit)",
+        help="end the search before a step that exceeds it: `10min` of wall time, or `300runs`"
+        f" (default: {budget or 'no limit'})",
     )
     parser.add_argument("--json", action="store_true", help="print the answer as JSON; progress goes to stderr")
 

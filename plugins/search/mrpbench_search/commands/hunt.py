@@ -36,8 +36,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         " `given` in `crowds`. Exit code: 0 nothing was found, 1 failures were found, 2 the configuration is wrong, 130"
         " interrupted (the same command continues)."
     )
-    add_search(parser, "results/NAME-hunt")
-    parser.set_defaults(budget=BUDGET)
+    add_search(parser, "results/NAME-hunt", BUDGET)
     parser.add_argument(
         "--for",
         dest="wanted",

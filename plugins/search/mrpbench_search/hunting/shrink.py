@@ -1,10 +1,12 @@
 """Makes a case that fails smaller: fewer robots, tasks, faults and people, and shorter faults.
 
 Zeller and Hildebrandt, "Simplifying and isolating failure-inducing input", IEEE TSE 2002: parts are left out, halves
-first, as long as the same failure remains, until no part can be left out.
+first, as long as the same failure remains, until no part can be left out. Two robots may have to be left out at a time,
+since each delays others.
 """
 
 from collections.abc import Callable, Iterator, Sequence
+from itertools import combinations
 
 import attrs
 
@@ -72,6 +74,8 @@ def _smaller(case: Case, parts: int) -> Iterator[Case]:
         yield attrs.evolve(case, events=tuple(one for index, one in enumerate(case.events) if index not in events))
     yield from _fewer_people(case)
     if parts >= _most_parts(case):
+        for one, other in combinations(range(case.robots), 2) if case.robots > 2 else ():
+            yield case.without_robot(other).without_robot(one)
         yield from _shorter(case)
 
 

@@ -192,6 +192,18 @@ def test_shrinking_leaves_exactly_the_robots_that_a_failure_needs(needed):
     assert runs.asked < 40
 
 
+def test_two_robots_that_a_failure_needs_both_or_neither_are_left_out():
+    starts = [tuple(pose) for pose in FIRST.scenario.start[:, :2].tolist()]
+
+    def fails(case):
+        there = {tuple(pose) for pose in case.scenario.start[:, :2].tolist()}
+        return {starts[0], starts[3]} <= there and (starts[1] in there) == (starts[2] in there)
+
+    runs = Runs(fails)
+    smallest, ended = shrink(runs.judge([FIRST], "case")[0], runs, lambda judged: bool(judged.verdict.failures))
+    assert (ended, smallest.case.robots) == (True, 2)
+
+
 def test_a_robot_is_left_out_with_the_goal_that_the_assigner_gave_it():
     def assigned(case):
         goals = np.array([task.goals[0, :2] for task in case.tasks])
