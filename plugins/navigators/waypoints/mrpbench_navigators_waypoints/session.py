@@ -30,7 +30,6 @@ class WaypointsSession(NavigatorSession):
     detours: Detours
     recoveries: RecoveryManager
     rotations: Rotations
-    xy_goal_tolerance: float
     fleet: Fleet
     world: World
 
@@ -104,7 +103,7 @@ class WaypointsSession(NavigatorSession):
         on_routes = Observations(
             now=now,
             points=self.follower.corners,
-            tolerance=self.xy_goal_tolerance,
+            tolerance=self.follower.tables.tolerance,
             scans=observation.scans,
             fleet_pose=pose,
             **rows,
