@@ -144,6 +144,14 @@ def test_a_robot_that_makes_room_waits_only_where_it_has_cleared_the_place_befor
     assert follower.fleet.tables.tolerance == pytest.approx(0.3 - CLEARANCE, abs=1e-5)
 
 
+def test_a_robot_that_cannot_come_nearer_to_a_place_with_little_room_is_near_the_end_of_its_path():
+    follower = follow([(0, 0), (0.3, 0)], along([(0, 0), (0.24, 0)]))
+    assert not follower.reached
+    assert [follower.fleet.is_near_path_end(0, x, 0.0) for x in (0.19, 0.21, 0.24, 0.26)] == [False, True, True, False]
+    follower.fleet.skip_path_end(0)
+    assert follower.reached == 1
+
+
 def test_a_tolerance_of_the_goal_is_not_made_smaller_than_that_of_waypoints():
     near = [*along([(0, 0), (0.8, 0)]), (1.0, 0, 0)]
     for tolerance, reached in ((0.25, 3), (0.10, 2)):
