@@ -281,11 +281,9 @@ class WalkingSession(CrowdSession):
         bodies = np.vstack([view.state.pose[robots, :2], view.others.pose[others, :2]])
         reach = np.concatenate([self._robot_radius[robots], view.radius[others]]) + recipe.radius
         for index, person in enumerate(recipe.given):
-            for place in map(np.array, (person.start, *person.goals)):
-                if not self._floor.reaches(np.array(person.start), place.astype(float)):
-                    raise InputError(
-                        f"crowds: person {index} of `given` cannot walk from {person.start} to {tuple(place)}"
-                    )
+            for place in (person.start, *person.goals):
+                if not self._floor.reaches(np.array(person.start, float), np.array(place, float)):
+                    raise InputError(f"crowds: person {index} of `given` cannot walk from {person.start} to {place}")
             if not _apart(np.array(person.start), bodies, reach):
                 raise InputError(
                     f"crowds: person {index} of `given` begins at {person.start}, inside a robot or a mover"

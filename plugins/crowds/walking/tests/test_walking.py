@@ -157,7 +157,7 @@ def test_robots_behind_or_far_away_are_not_seen():
 @pytest.mark.parametrize(
     ("crowd", "said"),
     [(Orca(people=500), "room for"), (Orca(level=3), "no level 3"), (Carts(radius=3.0), "nobody of radius"),
-     (Orca(given=(Person(start=(0.0, 1.0)),)), "cannot walk")],
+     (Orca(given=(Person(start=(0.0, 1.0)),)), r"cannot walk from \(0.0, 1.0\) to \(0.0, 1.0\)")],
 )  # fmt: skip
 def test_what_does_not_fit_is_said_in_one_line(crowd, said):
     with pytest.raises(InputError, match=said):

@@ -1,5 +1,6 @@
 """All robots on their routes, in C++: how far each has come, what lies ahead of it, and which robots are stuck."""
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -171,6 +172,16 @@ class RouteFollower:
         """Count the end of a robot's path as reached."""
         self._native.skip_path_end(robot)
         self._read_progress()
+
+    def is_near_path_end(self, robot: int, x: float, y: float) -> bool:
+        """Tell whether a robot is within the stated tolerance of the end of its path, but has to come nearer to clear
+        the place before. Not every controller can: DWB's grids have cells of 0.05 m.
+        """
+        if self.activities.detouring[robot]:
+            return False
+        end_x, end_y = self.corners[self.end[robot] - 1].tolist()
+        stated = min(self._rules.waypoint_tolerance, self._rules.xy_goal_tolerance)
+        return self.tables.tolerance < math.hypot(x - end_x, y - end_y) <= stated
 
     def segment_ends(self, robots: Int, segments: Int) -> tuple[Float, Float]:
         """The places f8[k,2] at which segments i8[k] of robots i8[k] start and end."""

@@ -13,6 +13,10 @@ SLACK = 1e-6
 """metres."""
 BACK = 2.4
 """Radians; a path that turns by more leads back along itself, as where a robot makes room for another one."""
+USUAL = 0.10
+"""metres: the default of the tolerance of waypoints."""
+FINE = 0.02
+"""metres: a smaller tolerance is not asked of controllers."""
 STRAIGHT = 0.3
 """radians: a corner at which the direction changes by less is not a bend."""
 
@@ -93,10 +97,13 @@ class RouteTables:
         enters_lift = np.zeros(len(self.corners), bool)
         enters_lift[row[:-1][~same_level[1:] & ~begins[1:]]] = True
         heading = self._add_legs(np.repeat(clearances, self.last_corner + 1), enters_lift)
-        self.arrival = self._arrival(waypoint, row, heading, rules)
+        rests = np.append(self.is_wait[1:], False) & is_corner
+        self.arrival = self._arrival(waypoint, row, heading, rests, rules)
         """f8[W,6] x, y, tolerance, direction of the way there (NaN: passing does not count) and tolerance of passing:
         when each waypoint is reached. The goal, and a wait before the first corner, are
         not reached by passing them."""
+        self.tolerance: float = float(self.arrival[:, 2].min())
+        """The least of these tolerances: controllers have to come as near to the ends of paths."""
         self.yaw: Float = waypoint[:, 2].copy()
         """f8[W] prescribed at each waypoint, NaN = any. A robot that stops at each turns there to the next one."""
         self.yaw[self.first + self.goal] = self.yaw[self.first + self.last]  # where it rests, not as it drives there
@@ -132,8 +139,8 @@ class RouteTables:
         """f8[C,3] each corner and the distance at which it is cleared."""
         self.distance: Float = np.cumsum(length) - length
         """f8[C] metres along the legs of all robots up to each corner."""
-        self.is_short: Bool = length <= clearance + SLACK
-        """bool[C]: the leg is no longer than the clearance."""
+        self.is_short: Bool = length <= clearance + FINE
+        """bool[C]: the leg is hardly longer than the clearance."""
         cosine = (heading * np.roll(heading, 1, axis=1)).sum(axis=0)  # of the turn at each corner, NaN at both ends
         self.stop: Int = self._first_from_each((cosine < np.cos(self._least_turn)) | is_last)
         """i8[C]: the first corner of its robot, from each on, at which its path ends, or the last."""
@@ -148,21 +155,25 @@ class RouteTables:
         corner: Int = following - np.repeat(self.first_corner, self.last_corner + 1)
         return corner
 
-    def _arrival(self, waypoint: Float, row: Int, heading: Float, rules: ArrivalRules) -> Float:
+    def _arrival(self, waypoint: Float, row: Int, heading: Float, rests: Bool, rules: ArrivalRules) -> Float:
+        """The table `arrival`; `rests` bool[W]: a robot waits at the waypoint."""
         goal = self.first + self.goal
+        leaving = self._leaving(rules.waypoint_tolerance)[row]
         into = np.roll(heading, 1, axis=1).take(row, axis=1)  # NaN at each first corner
         arrival = _table(*waypoint[:, :2].T, rules.waypoint_tolerance, *into, into[0] * 0 + rules.passing_tolerance)
-        arrival[goal, 2] = np.minimum(rules.xy_goal_tolerance, self._leaving(rules.waypoint_tolerance))
+        arrival[rests, 2] = np.minimum(rules.waypoint_tolerance, leaving[rests])
+        arrival[goal, 2] = np.minimum(rules.xy_goal_tolerance, leaving[goal])
         arrival[goal, 3:] = np.nan
         return arrival
 
-    def _leaving(self, least: float) -> Float:
-        """Metres f8[n] from its goal, `least` or more, within which each robot has cleared the place before: others may
-        wait for that, and a robot that rests there would let them wait for ever.
+    def _leaving(self, stated: float) -> Float:
+        """Metres f8[C] from each corner within which a robot has cleared the corner before: others may wait for that,
+        and a robot that rests there would let them wait for ever. A tolerance `stated` beyond the usual one is kept.
         """
-        into_goal = self.first_corner + np.maximum(self.last_corner - 1, 0)
-        room: Float = np.sqrt(self.legs[into_goal, 4]) - self.clearing[into_goal, 2]
-        return np.where((self.last_corner == 0) | self.is_short[into_goal], np.inf, np.maximum(room, least))
+        least = stated if stated > USUAL else FINE
+        room = np.roll(np.where(self.is_short, np.inf, np.sqrt(self.legs[:, 4]) - self.clearing[:, 2]), 1)
+        room[self.first_corner] = np.inf
+        return np.maximum(room, least)
 
 
 def _table(first: Float, *others: Float | float) -> Float:

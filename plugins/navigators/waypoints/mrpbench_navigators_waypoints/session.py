@@ -30,7 +30,6 @@ class WaypointsSession(NavigatorSession):
     detours: Detours
     recoveries: RecoveryManager
     rotations: Rotations
-    xy_goal_tolerance: float
     fleet: Fleet
     world: World
 
@@ -84,6 +83,9 @@ class WaypointsSession(NavigatorSession):
         follower, pose = self.follower, observation.estimate.pose
         without_progress = set() if stuck is None else set(stuck.nonzero()[0].tolist())
         for robot in sorted(without_progress.union(failed)):
+            if follower.is_near_path_end(robot, *pose[robot, :2].tolist()):
+                follower.skip_path_end(robot)
+                continue
             kind = "no_progress" if robot in without_progress else "no_command"
             reason = "" if robot in without_progress else self.controllers.failure_reason(robot)
             events.append(Event(stamp=now, kind=kind, robot=robot, detail=reason))
@@ -101,7 +103,7 @@ class WaypointsSession(NavigatorSession):
         on_routes = Observations(
             now=now,
             points=self.follower.corners,
-            tolerance=self.xy_goal_tolerance,
+            tolerance=self.follower.tables.tolerance,
             scans=observation.scans,
             fleet_pose=pose,
             **rows,

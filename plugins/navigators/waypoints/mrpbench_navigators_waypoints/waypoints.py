@@ -29,10 +29,10 @@ from mrpbench_navigators_waypoints.recoveries.wait import Wait
 from mrpbench_navigators_waypoints.recovery_manager import RecoveryManager, RecoveryOptions
 from mrpbench_navigators_waypoints.rotations import Rotations
 from mrpbench_navigators_waypoints.route_follower import ProgressRules, RouteFollower
-from mrpbench_navigators_waypoints.route_tables import ArrivalRules
+from mrpbench_navigators_waypoints.route_tables import USUAL, ArrivalRules
 from mrpbench_navigators_waypoints.session import WaypointsSession
 
-_KEEPING, _CUTTING = 0.10, 0.50
+_KEEPING, _CUTTING = USUAL, 0.50
 """Metres from a waypoint on the way at which robots that keep to their routes, and robots that cut corners, pass it."""
 
 
@@ -71,8 +71,8 @@ class Waypoints(Navigator):
     )
     xy_goal_tolerance: float | None = parameter(
         0.10,
-        help="distance within which the end of the path is reached (Nav2: 0.25); smaller, down to the tolerance of "
-        "waypoints, where a robot within it would not have cleared the place before",
+        help="distance within which the end of the path is reached (Nav2: 0.25); smaller, down to 0.02 m or a "
+        "wider `waypoint_tolerance`, where a robot within it would not have cleared the place before",
         unit="m",
         validator=gt(0),
     )
@@ -197,7 +197,6 @@ class Waypoints(Navigator):
             detours=Detours(follower, controllers, self.planner_tolerance, rules.waypoint_tolerance),
             recoveries=RecoveryManager(fleet.robots, recoveries, controllers, follower),
             rotations=Rotations(follower, fleet.robots, period, nav2["movement_time_allowance"]),
-            xy_goal_tolerance=min(rules.xy_goal_tolerance, rules.waypoint_tolerance),  # paths also end at waypoints
             fleet=fleet,
             world=world,
         )

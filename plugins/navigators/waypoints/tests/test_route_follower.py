@@ -125,13 +125,31 @@ def test_a_segment_no_longer_than_the_clearance_is_cleared_when_its_end_is_reach
     assert (follower.reached, follower.cleared) == (1, 1)
 
 
-@pytest.mark.parametrize("points", [LINE, CORNER, [(0, 0), (0.36, 0)], [(0, 0), (0.4, 0), (0, 0), (0.4, 0)]])
+@pytest.mark.parametrize(
+    "points", [LINE, CORNER, [(0, 0), (0.36, 0)], [(0, 0), (0.3, 0)], [(0, 0), (0.4, 0), (0, 0), (0.4, 0)]]
+)
 def test_a_robot_rests_only_where_it_has_cleared_the_place_before_its_goal(points):
     rules = Waypoints(xy_goal_tolerance=0.25).arrival_rules
     follower, robot = Follower(route(points), rules, CLEARANCE), iter(along(points))
     while follower.fleet.reached[0] < len(points) - 1:
         follower.update(*next(robot), 0.2, len(points) - 1)
     assert follower.cleared == len(points) - 1
+
+
+def test_a_robot_that_makes_room_waits_only_where_it_has_cleared_the_place_before():
+    aside = [(0, 0), (0.3, 0), (0.3, 0), (0, 0)]
+    for x, counts in ((0.24, (0, 0)), (0.26, (2, 1))):
+        follower = follow(aside, along([(0, 0), (x, 0)]), released=2)
+        assert (follower.reached, follower.cleared) == counts
+    assert follower.fleet.tables.tolerance == pytest.approx(0.3 - CLEARANCE, abs=1e-5)
+
+
+def test_a_robot_that_cannot_come_nearer_to_a_place_with_little_room_is_near_the_end_of_its_path():
+    follower = follow([(0, 0), (0.3, 0)], along([(0, 0), (0.24, 0)]))
+    assert not follower.reached
+    assert [follower.fleet.is_near_path_end(0, x, 0.0) for x in (0.19, 0.21, 0.24, 0.26)] == [False, True, True, False]
+    follower.fleet.skip_path_end(0)
+    assert follower.reached == 1
 
 
 def test_a_tolerance_of_the_goal_is_not_made_smaller_than_that_of_waypoints():

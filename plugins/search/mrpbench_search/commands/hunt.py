@@ -20,7 +20,7 @@ from mrpbench_search.asking.requests import read_whole_study
 from mrpbench_search.choosing.metrics import metric_of
 from mrpbench_search.hunting.answer import document, sentence, table, write_failure
 from mrpbench_search.hunting.moves import Moves
-from mrpbench_search.hunting.properties import ANY, COMPARES, KINDS, Property, read_property
+from mrpbench_search.hunting.properties import ANY, COMPARES, KINDS, LESS, Property, read_property
 from mrpbench_search.hunting.runs import CaseRuns
 from mrpbench_search.hunting.search import Hunt
 from mrpbench_search.hunting.space import first_case, read_space
@@ -43,7 +43,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=ANY,
         metavar="FAILURE",
         help=f"{', '.join(KINDS)}, a bound such as `execution.duration_s > 60`, or `B worse than A by 20 %%`"
-        " (default: any of the first but late)",
+        f" (default: any of the first but {' and '.join(LESS)})",
     )
     parser.add_argument("--metric", metavar="X", help="column by which two candidates are compared")
     parser.add_argument("--most", type=int, metavar="N", help="end after so many different failures")

@@ -25,10 +25,13 @@ KINDS = {
     "stuck": "a robot does not arrive",
     "invalid": "the plan breaks a promise of its planner",
     "crash": "a component raises an exception or breaks its contract",
+    "no_plan": "the planner finds no plan within its limits",
 }
 """Kinds of failures."""
 ANY = "failure"
-"""Any of the kinds but `late`."""
+"""Any of the kinds but `LESS`."""
+LESS = ("late", "no_plan")
+"""Kinds that a fleet may show though each component does what it promises."""
 METRICS = ("planning", "execution", "deadlock", "clearance")
 """Metrics that kinds of failures are read from; with movers also `people`."""
 COMPARES = " worse than "
@@ -37,6 +40,7 @@ LATE = 2.0
 """Times the planned duration."""
 _CONTACTS = ("execution.robot_contacts", "execution.wall_contacts", "people.contacts_per_robot_h")
 _NOT_ARRIVED = (RunStatus.GOALS_MISSED, RunStatus.EXECUTION_ABORTED)
+_NO_PLAN = (RunStatus.PLAN_TIMEOUT, RunStatus.PLAN_NOT_FOUND)
 _CRASHED = (RunStatus.CRASHED, RunStatus.CONTRACT_BROKEN, RunStatus.ASSIGNMENT_FAILED)
 _BOUND = re.compile(r"\s*([\w.@/-]+\.[\w.]+)\s*([<>])\s*(-?[\d.]+(?:e-?\d+)?)\s*")
 _WORSE = re.compile(r"\s*(.+?) worse than (.+?) by ([\d.]+) ?%\s*")
@@ -146,7 +150,7 @@ def read_property(text: str, candidates: Sequence[str], columns: Columns, column
             hint="choose one by key=value, or compare two: `--for 'B worse than A by 20 %'`",
         )
     if text == ANY:
-        return Holds(text, tuple(kind for kind in KINDS if kind != "late"))
+        return Holds(text, tuple(kind for kind in KINDS if kind not in LESS))
     if text in KINDS:
         return Holds(text, (text,))
     if found := _BOUND.fullmatch(text):
@@ -185,6 +189,8 @@ def failures(record: Record) -> tuple[str, ...]:
         found.append("deadlock" if metrics.get("deadlock.unresolved") else "stuck")
     if (lateness(record) or 0) > LATE or metrics.get("tasks.late"):
         found.append("late")
+    if status in _NO_PLAN:
+        found.append("no_plan")
     return tuple(found)
 
 
@@ -212,8 +218,9 @@ def _gap(metrics: Mapping[str, Any]) -> float | None:
 def _margin(kind: str, record: Record, broken: bool) -> float | None:
     """The margin of one kind of failure; where it has no measure, 1 for a run that ended regularly.
 
-    `invalid` and `crash` have none. How much longer a plan is than the shortest ways says how crowded a case is, not
-    how near a planner is to a fault: with it, hunts for an invalid plan took more cases than with new cases alone.
+    `invalid`, `crash` and `no_plan` have none. How much longer a plan is than the shortest ways says how crowded a case
+    is, not how near a planner is to a fault: with it, hunts for an invalid plan took more cases than with new cases
+    alone.
     """
     metrics = record["metrics"]
     if broken:

@@ -23,6 +23,8 @@ ELITE = 6
 """Cases from which local moves begin."""
 REPEATS = 20
 """Runs with other noise of each failure."""
+IDLE = 50
+"""Generations without a case that was not tried before, after which a study is taken to have no further ones."""
 Announce = Callable[[str], object]
 
 
@@ -58,19 +60,29 @@ class Hunt:
     """By signature."""
     others: dict[str, str] = attrs.field(factory=dict, init=False)
     """Kinds of failures that the hunt is not for, each with the id of a run."""
-    tried: int = attrs.field(default=0, init=False)
-    """Number of cases of the search, without those of shrinking."""
+    _tried: set[str] = attrs.field(factory=set, init=False)
+    """Keys of the cases of the search, without those of shrinking."""
     _elite: list[Judged] = attrs.field(factory=list, init=False)
+
+    @property
+    def tried(self) -> int:
+        """Number of different cases of the search, without those of shrinking."""
+        return len(self._tried)
 
     def run(self, most: int | None = None) -> str:
         """Search until the budget is spent, or `most` different failures are found; return why it ended."""
         cases = [self.moves.drawn(0), *(self.moves.new() for _ in range(GENERATION - 1))]
+        idle = 0
         try:
             while most is None or len(self.failures) < most:
-                judged = self.runs.judge(cases, "case", self.tried + 1)
-                for one in judged:
-                    self.tried += 1
-                    self._take(one)
+                before = self.tried
+                for one in self.runs.judge(cases, "case", before + 1):
+                    if one.case.key not in self._tried:
+                        self._tried.add(one.case.key)
+                        self._take(one)
+                idle = idle + 1 if self.tried == before else 0
+                if idle == IDLE:
+                    return "the study has no further cases"
                 cases = self._next()
         except SearchEnded as end:
             return str(end)

@@ -114,7 +114,9 @@ def smallest(verdicts: Mapping[int, Verdict]) -> tuple[int, int | None]:
     return max(fails, default=0) + 1, high
 
 
-def next_size(verdicts: Mapping[int, Verdict], looks: Mapping[int, int], first: int, most: int) -> int | None:
+def next_size(
+    verdicts: Mapping[int, Verdict], looks: Mapping[int, int], first: int, most: int, busy: float = 0.0
+) -> int | None:
     """Return the fleet to try or to repeat next, or None if the interval cannot be made shorter.
 
     Args:
@@ -122,6 +124,8 @@ def next_size(verdicts: Mapping[int, Verdict], looks: Mapping[int, int], first: 
         looks: how often the runs of each were judged.
         first: to begin with.
         most: largest fleet that can be tried.
+        busy: mean number of busy robots in the smallest fleet that serves, about as many as the orders need at least:
+            a smaller fleet is not worth its runs unless all larger ones serve.
     """
     if not verdicts:
         return min(first, most)
@@ -130,7 +134,8 @@ def next_size(verdicts: Mapping[int, Verdict], looks: Mapping[int, int], first: 
     if high is None and largest < (larger := min(2 * largest, most)) <= first * FARTHEST:
         return larger
     if high is not None and low == 1 and min(verdicts) > 1:
-        return max(1, min(verdicts) // 2)
+        least = min(verdicts)
+        return max(1, least // 2, min(math.ceil(busy), 3 * least // 4))
     untried = [size for size in range(low, high or low) if size not in verdicts]
     if untried:
         return untried[len(untried) // 2]

@@ -70,7 +70,7 @@ class Fleets:
     def run(self, first: int) -> str | None:
         """Try fleets until the interval cannot be made shorter; return why the search ended before, if it did."""
         try:
-            while (size := next_size(self.verdicts, self._looks_of(self.tried), first, self.most)) is not None:
+            while (size := self._next(first)) is not None:
                 self._try(size)
             size = smallest(self.verdicts)[1]
             if size is not None and has_batteries(self.points[0].canonical):
@@ -109,6 +109,12 @@ class Fleets:
 
     def _looks_of(self, sizes: Mapping[int, object]) -> dict[int, int]:
         return {size: self._looks[size, None] for size in sizes}
+
+    def _next(self, first: int) -> int | None:
+        """The fleet to try or to repeat next."""
+        high = smallest(self.verdicts)[1]
+        busy = high * self.tried[high].utilisation if high else 0.0
+        return next_size(self.verdicts, self._looks_of(self.tried), first, self.most, busy)
 
     def _try(self, size: int) -> None:
         try:

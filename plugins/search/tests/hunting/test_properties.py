@@ -31,6 +31,8 @@ def reading(text, candidates=("",), column=DURATION):
         (record(execution__robot_contacts=1), ("contact",)),
         (record(people__contacts_per_robot_h=3.0), ("contact",)),
         (record(execution__duration_s=21.0, planning__makespan=10.0), ("late",)),
+        (record("plan_timeout"), ("no_plan",)),
+        (record("plan_not_found"), ("no_plan",)),
         (record("plan_unsolvable"), ()),
         (record("scenario_infeasible"), ()),
     ],

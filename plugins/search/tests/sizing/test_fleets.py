@@ -17,10 +17,10 @@ from mrpbench_search.sizing.fleets import (
 )
 
 
-def searched(judge, first, most=10**6):
+def searched(judge, first, most=10**6, busy=0.0):
     """The verdicts at the end, and the looks; `judge` has the size and the look, from 1."""
     verdicts, looks = {}, {}
-    while (size := next_size(verdicts, looks, first, most)) is not None:
+    while (size := next_size(verdicts, looks, first, most, busy)) is not None:
         assert verdicts.get(size, Verdict.NOT_SHOWN) is Verdict.NOT_SHOWN
         looks[size] = looks.get(size, 0) + 1
         verdicts[size] = judge(size, looks[size])
@@ -34,6 +34,19 @@ def test_the_smallest_fleet_that_serves_is_found_and_one_fewer_does_not(needed, 
         assert smallest(verdicts) == (needed, needed)
         assert needed == 1 or verdicts[needed - 1] is Verdict.DOES_NOT
     assert sum(looks.values()) <= 2 + 2 * math.log2(300)
+
+
+@given(st.integers(1, 300), st.integers(1, 300), st.floats(0, 400))
+def test_the_smallest_fleet_is_found_however_many_robots_are_busy(needed, first, busy):
+    verdicts, looks = searched(lambda size, _: Verdict.SERVES if size >= needed else Verdict.DOES_NOT, first, busy=busy)
+    if needed <= first * 64:
+        assert smallest(verdicts) == (needed, needed)
+    assert sum(looks.values()) <= 2 + math.log(300, 4 / 3) + math.log2(300)
+
+
+def test_fleets_smaller_than_the_number_of_busy_robots_are_not_tried():
+    verdicts, _ = searched(lambda size, _: Verdict.SERVES if size >= 3 else Verdict.DOES_NOT, 3, busy=1.9)
+    assert sorted(verdicts) == [2, 3]
 
 
 @given(st.integers(1, 40), st.integers(0, 8), st.integers(1, 40))
@@ -68,11 +81,11 @@ def test_no_larger_fleet_is_tried_than_fits():
     assert smallest(verdicts) == (11, None)
 
 
-@given(st.lists(st.tuples(st.floats(0, 1), st.integers(1, 500)), min_size=2, max_size=20))
+@given(st.lists(st.tuples(st.integers(0, 500), st.integers(1, 500)), min_size=2, max_size=20))
 def test_the_share_in_time_is_that_of_all_orders_and_lies_between_its_limits(seeds):
-    levels, orders = zip(*seeds, strict=True)
-    found = share_in_time(levels, orders)
-    assert found.mean == pytest.approx(sum(a * b for a, b in seeds) / sum(orders))
+    done, orders = [min(seed) for seed in seeds], [count for _, count in seeds]
+    found = share_in_time([some / count for some, count in zip(done, orders, strict=True)], orders)
+    assert found.mean == pytest.approx(sum(done) / sum(orders))
     assert 0 <= found.low <= found.mean + 1e-12
     assert found.mean - 1e-12 <= found.high <= 1
 
