@@ -43,7 +43,8 @@ class Occupancy:
     def constrained(self, problem: Problem, prediction: Prediction, now: float) -> Problem:
         """Return the problem with one more robot for each place at which objects are predicted.
 
-        A constraint that contradicts what robots are committed to, or that holds where they are then, is left out.
+        A constraint that contradicts what robots are committed to, or that holds where they are then, is left out, and
+        so are those at doors, in lifts and in mutexes, which robots use one at a time, whatever people do.
 
         Args:
             problem: of the robots.
@@ -114,6 +115,7 @@ class Occupancy:
             low, high = place.min(axis=0) - distance, place.max(axis=0) + distance
             near = np.flatnonzero(((position >= low) & (position <= high)).all(axis=1))
             met[near] |= np.hypot(*(position[near, None] - place).transpose(2, 0, 1)) < distance
+        met[np.isin(self._places, [vertex for resource in roadmap.resources for vertex in resource.vertices])] = False
         last = np.iinfo(np.int64).max if problem.horizon is None else problem.horizon - 1
         first = int(problem.begins.min()) + 1
         now_ticks, per_step = now / roadmap.tick, prediction.step / roadmap.tick
