@@ -7,6 +7,7 @@ from typing import Any
 import yaml
 
 from mrpbench_core.cli.output.replays import replay_writer, try_write_replay
+from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.output import replace_file
 from mrpbench_core.files.text import counted
 from mrpbench_core.report.answer.wording import listed
@@ -89,7 +90,7 @@ def write_failure(folder: Path, failure: Failure, runs: CaseRuns) -> dict[str, s
     shared = {key: value for key, value in configs[0].items() if all(other.get(key) == value for other in configs)}
     document = {"name": folder.name, **shared}
     if len(configs) > 1:
-        own = [{key: [value] for key, value in config.items() if key not in shared} for config in configs]
+        own = [{key: value for key, value in config.items() if key not in shared} for config in configs]
         document["matrix"] = {"include": own}
     text = f"# {failure.kind}: {failure.reason}\n{yaml.safe_dump(document, sort_keys=False, allow_unicode=True)}"
     replace_file(study, text.encode())
@@ -114,5 +115,8 @@ def _replay(page: Path, judged: Judged, runs: CaseRuns) -> Path | None:
     writer = replay_writer()
     if writer is None or not all(results.paths(run_id).recording.is_file() for run_id in ids):
         return None
-    writer.write_replays([(results, results[run_id]) for run_id in ids], [run_id[:12] for run_id in ids], page)
+    try:
+        writer.write_replays([(results, results[run_id]) for run_id in ids], [run_id[:12] for run_id in ids], page)
+    except InputError:  # in one of them nothing moves
+        return None
     return page

@@ -117,6 +117,19 @@ def test_a_hunt_goes_on_where_no_task_is_released_with_the_first_seed(hall):
     assert json.loads(output)["cases"] == 4
 
 
+def test_the_smallest_case_of_two_candidates_is_a_study_of_both(hall):
+    words = ("planner=[cbs, example]", "--for", "example worse than cbs by 0.1 %", "--metric", "planning.sum_of_costs")
+    code, output, errors = hall("hunt", "hall.yaml", *words, "--most", "1", "--budget", "200runs", "--json")
+    assert code == 1, errors
+    (failure,) = json.loads(output)["failures"]
+    code, _, errors = hall("run", failure["files"]["study"], "--out", "again")
+    assert code == 0, errors
+    costs = {
+        record["config"]["planner"]["plugin"]: record["metrics"]["planning.sum_of_costs"] for record in load("again")
+    }
+    assert costs["example"] > 1.001 * costs["cbs"]
+
+
 @pytest.mark.parametrize(
     ("words", "message"),
     [
