@@ -1,9 +1,9 @@
 """`mrpbench tune STUDY [key=value…]`: find better values of options, and show them on held-out seeds."""
 
 import argparse
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import attrs
 import yaml
@@ -16,6 +16,7 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.extras import has
 from mrpbench_core.files.output import replace_file
 from mrpbench_core.files.text import counted
+from mrpbench_core.report.reading.axes import SAMPLES, is_below
 from mrpbench_core.report.reading.columns import direction
 from mrpbench_core.store.folder import ResultsFolder
 from mrpbench_search.asking.arguments import add_search, searching, study_of
@@ -35,9 +36,9 @@ from mrpbench_search.tuning.answer import (
 )
 from mrpbench_search.tuning.confirm import Standing, compare_held_out, importances
 from mrpbench_search.tuning.constraints import read_constraints
-from mrpbench_search.tuning.evaluation import Evaluation, Sample, Setting
+from mrpbench_search.tuning.evaluation import Evaluation, Sample
 from mrpbench_search.tuning.nav2 import nav2_file, without_nav2, write_nav2
-from mrpbench_search.tuning.parameters import read_parameters
+from mrpbench_search.tuning.parameters import Parameter, read_parameters
 
 if TYPE_CHECKING:
     from mrpbench_search.tuning.search import Search
@@ -103,7 +104,7 @@ def run(arguments: argparse.Namespace) -> int:
         constraints = read_constraints(arguments.subject_to, study.columns)
         training, held_out = _split(points)
         parameters = read_parameters(points[0], arguments.vary)
-        conditions = [_condition(study, points[0], text) for text in arguments.held_out]
+        others = {text: _elsewhere(file, overrides, text, parameters) for text in arguments.held_out}
         columns = tuple(dict.fromkeys([each.name for each in objectives] + [each.column for each in constraints]))
         out = Path(arguments.out or f"results/{study.name}-tune")
         ResultsFolder(out).create()
@@ -125,10 +126,11 @@ def run(arguments: argparse.Namespace) -> int:
             )
             end = search.run(arguments.settings)
             requests.budget = Budget()
-            found = _confirmed(search, evaluation, held_out, conditions)
+            found = _confirmed(search, evaluation, held_out, {"": points[0]} | others)
             seeds = len({seed for seed, _ in held_out})
             _write(found, study, points[0], out, [sentence(study.name, [each], objectives, seeds, 0) for each in found])
-    said = sentence(study.name, found, objectives, seeds, len(search.trials))
+    met = any(trial.feasible for trial in search.trials)
+    said = sentence(study.name, found, objectives, seeds, len(search.trials), met=met)
     if arguments.json:
         print_json(
             {
@@ -153,10 +155,13 @@ def _objectives(study: StudyRuns, arguments: argparse.Namespace) -> list[Column]
     """The columns that are to become better, in the order of the options."""
     wanted = [("--minimize", -1, name) for name in arguments.minimize]
     wanted += [("--maximize", 1, name) for name in arguments.maximize]
+    names = [name for *_, name in wanted]
     if not wanted:
         return [metric_of(study, None, "--minimize")]
     if len(wanted) > 2:
         raise InputError(f"{wanted[2][0]} {wanted[2][2]}: at most two objectives", hint="state others by --subject-to")
+    if len(set(names)) < len(names):
+        raise InputError(f"{wanted[1][0]} {names[1]}: named twice")
     found = []
     for option, sign, name in wanted:
         column = metric_of(study, name, option)
@@ -182,32 +187,47 @@ def _split(points: Sequence[StudyRun]) -> tuple[list[Sample], list[Sample]]:
     return [each for each in samples if each[0] in training], [each for each in samples if each[0] not in training]
 
 
-def _condition(study: StudyRuns, point: StudyRun, text: str) -> Setting:
-    """The options of `--held-out`, which are refused before the search begins."""
-    key, equals, value = text.partition("=")
+def _elsewhere(file: str, overrides: Sequence[str], text: str, parameters: Sequence[Parameter]) -> StudyRun:
+    """A run of the study with the option of `--held-out`, which is refused before the search begins."""
+    key, equals, _ = text.partition("=")
     if not equals:
         raise InputError(f"--held-out {text}: expected KEY=VALUE", hint="e.g. `--held-out world=warehouse`")
-    plain: Any = yaml.safe_load(value)
-    if "." not in key and isinstance(plain, str) and isinstance(point.canonical.get(key), dict):
-        plain = {"plugin": plain}
-    read_variants(study, point, [{key: plain}], [{}])
-    return {key: plain}
+    if key in SAMPLES:
+        raise InputError(f"--held-out {text}: the held-out seeds are those of the study", hint="name another option")
+    if varied := [each.key for each in parameters if is_below(each.key, [key]) or is_below(key, [each.key])]:
+        raise InputError(f"--held-out {text}: the search varies {varied[0]}", hint="name another option")
+    return only_configuration(read_whole_study(file, [*overrides, text]))[0]
 
 
 def _confirmed(
-    search: "Search", evaluation: Evaluation, held_out: Sequence[Sample], conditions: Sequence[Setting]
+    search: "Search", evaluation: Evaluation, held_out: Sequence[Sample], conditions: Mapping[str, StudyRun]
 ) -> list[Tuned]:
-    """The best settings with what held-out samples show; [] if none is better than the defaults on training seeds."""
+    """The best settings with what held-out samples show; [] if none is better than the defaults on training seeds.
+
+    Args:
+        search: after its end.
+        evaluation: does the runs.
+        held_out: samples that the search has not had.
+        conditions: the run that settings change, by what it has instead of the study's options; the first is a run of
+            the study.
+    """
     found = []
     for trial in [trial for trial in search.best if trial.number][:FRONT]:
         try:
             column = search.objectives[0]
             rows = importances(trial.setting, trial.training, search.parameters, evaluation, search.samples, column)
             matters = {row.key: trial.setting[row.key] for row in rows if row.loss is not None}
-            compared = []
-            for condition in ({}, *conditions):
-                elsewhere = attrs.evolve(evaluation, keep=condition)
-                compared.append(compare_held_out(matters, elsewhere, held_out, search.objectives, search.constraints))
+            compared = [
+                compare_held_out(
+                    matters,
+                    attrs.evolve(evaluation, point=point),
+                    held_out,
+                    search.objectives,
+                    search.constraints,
+                    where,
+                )
+                for where, point in conditions.items()
+            ]
         except SearchEnded as end:
             raise InputError(str(end)) from None
         found.append(Tuned(number=trial.number, setting=matters, held_out=tuple(compared), importances=tuple(rows)))

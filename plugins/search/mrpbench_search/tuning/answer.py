@@ -6,6 +6,7 @@ from typing import Any
 import attrs
 
 from mrpbench_core.api.metric import Column
+from mrpbench_core.files.text import counted
 from mrpbench_search.tuning.confirm import Comparison, Importance, Standing
 
 
@@ -23,23 +24,37 @@ class Tuned:
     files: dict[str, str] = attrs.field(factory=dict)
 
 
-def sentence(name: str, found: Sequence[Tuned], objectives: Sequence[Column], seeds: int, tried: int) -> str:
-    """Say by how much the best setting is better than the defaults on held-out seeds, or that this is not shown."""
+def sentence(
+    name: str, found: Sequence[Tuned], objectives: Sequence[Column], seeds: int, tried: int, *, met: bool = True
+) -> str:
+    """Say by how much the best setting is better than the defaults on held-out seeds, or that this is not shown.
+
+    Args:
+        name: of the study.
+        found: the best settings.
+        objectives: columns that are to become better.
+        seeds: number of held-out seeds.
+        tried: number of settings that were tried, with the defaults.
+        met: some setting meets the constraints on training seeds.
+    """
     if not found:
-        return f"{name}: none of {tried} settings is better than the defaults within the constraints, on training seeds"
+        others = counted(tried - 1, "other setting")
+        if tried < 2:
+            return f"{name}: no setting but the defaults was tried"
+        if not met:
+            return f"{name}: neither the defaults nor any of {others} meet the constraints, on training seeds"
+        return f"{name}: none of {others} is better than the defaults within the constraints, on training seeds"
     best = found[0]
     parts = [_said(compared, objectives, seeds) for compared in best.held_out]
     if len(objectives) > 1:
-        parts = [f"{len(found)} settings on the Pareto front; the first: {parts[0]}", *parts[1:]]
+        parts = [f"{counted(len(found), 'setting')} of the Pareto front; the first: {parts[0]}", *parts[1:]]
     return f"{name}: {'; '.join(parts)}: {written(best.setting)}"
 
 
 def standing_of(found: Tuned, objectives: Sequence[Column]) -> Standing:
     """Return what is shown of a setting: the worst of its comparisons by the first objective."""
     order = (Standing.REFUSED, Standing.WORSE, Standing.NOT_SHOWN, Standing.BETTER)
-    places = range(len(objectives)) if len(objectives) == 1 else (0,)
-    standings = [each.standing(objectives[place], place) for each in found.held_out for place in places]
-    return min(standings, key=order.index)
+    return min((each.standing(objectives[0]) for each in found.held_out), key=order.index)
 
 
 def written(setting: dict[str, Any]) -> str:
@@ -54,7 +69,8 @@ def importance_table(rows: Sequence[Importance]) -> tuple[list[str], list[list[A
         loss = "none: all runs are the same" if row.loss is None else f"{row.loss:+.1%}"
         if row.low is not None:
             loss += f" [{row.low:+.1%}, {row.high:+.1%}]"
-        cells.append([row.key, _value(row.value), _value(row.default), loss, "shown" if row.shown else "not shown"])
+        shown = "not shown" if not row.shown else "the default is better" if (row.loss or 0) < 0 else "shown"
+        cells.append([row.key, _value(row.value), _value(row.default), loss, shown])
     return ["parameter", "value", "default", "loss at its default", ""], cells
 
 

@@ -65,8 +65,17 @@ def compare_held_out(
     samples: Sequence[Sample],
     objectives: Sequence[Column],
     constraints: Sequence[Constraint],
+    where: str = "",
 ) -> Comparison:
     """Run the defaults and a setting on held-out samples.
+
+    Args:
+        setting: values by option.
+        evaluation: does the runs.
+        samples: that the search has not had.
+        objectives: columns that are compared.
+        constraints: that are checked.
+        where: what the runs of `evaluation` have instead of the study's options; empty = nothing.
 
     Raises:
         SearchEnded: runs of other shards are missing.
@@ -74,16 +83,11 @@ def compare_held_out(
     base, tuned = evaluation([{}, setting], samples)
     excess = [(each, each.excess(tuned.mean(each.column), base.mean(each.column))) for each in constraints]
     return Comparison(
-        where=", ".join(f"{key}={_short(value)}" for key, value in evaluation.keep.items()),
+        where=where,
         differences=tuple(_difference(base, tuned, column.name) for column in objectives),
         success=(base.mean("succeeded"), tuned.mean("succeeded")),
         broken=tuple(each.text for each, beyond in excess if beyond > 0),
     )
-
-
-def _short(value: Any) -> Any:
-    """An option as users write it: a plugin without options by its name."""
-    return value["plugin"] if isinstance(value, dict) and value.keys() == {"plugin"} else value
 
 
 @attrs.frozen(kw_only=True)
@@ -126,7 +130,7 @@ def importances(
     for each, one, difference in zip(moved, found, differences, strict=True):
         level = next(p) if difference is not None else 1.0
         value, default = setting[each.key], each.default
-        if difference is None or all(tuned.same(one, name) for name in tuned.columns):
+        if difference is None or tuned.same(one):
             rows.append(Importance(key=each.key, value=value, default=default, loss=None))
             continue
         scale = -direction(column) / difference.first if difference.first else np.nan

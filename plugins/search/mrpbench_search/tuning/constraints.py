@@ -8,8 +8,9 @@ import numpy as np
 
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import did_you_mean
+from mrpbench_search.tuning.parameters import NUMBER
 
-_TEXT = re.compile(r"\s*([\w./@-]+?)\s*([<>])=\s*(base)?\s*([+-]?\s*[\d.]+(?:e-?\d+)?)?\s*")
+_TEXT = re.compile(rf"\s*([\w./@-]+?)\s*([<>])=\s*(?:(base)\s*([+-]\s*{NUMBER})?|([+-]?\s*{NUMBER}))\s*")
 ALWAYS = ("succeeded>=base", "execution.robot_contacts<=base", "execution.wall_contacts<=base")
 """Constraints that hold without being named, as far as the study measures their columns."""
 
@@ -42,7 +43,7 @@ def read_constraints(texts: Sequence[str], columns: Mapping[str, object]) -> lis
     """Read constraints, and add those that always hold.
 
     Raises:
-        InputError: a text is no constraint, or names a column that the study does not have.
+        InputError: a text is not a constraint, or names a column that the study does not have.
     """
     found = [_read(text) for text in texts]
     for each in found:
@@ -57,12 +58,12 @@ def read_constraints(texts: Sequence[str], columns: Mapping[str, object]) -> lis
 
 def _read(text: str) -> Constraint:
     found = _TEXT.fullmatch(text)
-    if found is None or (found[3] is None and found[4] is None):
+    if found is None:
         raise InputError(
-            f"--subject-to {text}: is no constraint",
+            f"--subject-to {text}: is not a constraint",
             hint="e.g. `succeeded>=base`, `execution.min_clearance_m>=base-0.02` or `tasks.late<=0`",
         )
-    bound = float(found[4].replace(" ", "")) if found[4] else 0.0
+    bound = float((found[4] or found[5] or "0").replace(" ", ""))
     return Constraint(
         text=text.replace(" ", ""), column=found[1], at_least=found[2] == ">", bound=bound, relative=bool(found[3])
     )

@@ -37,9 +37,9 @@ class Evaluated:
         """Return what the first samples show."""
         return Evaluated(columns={name: values[:count] for name, values in self.columns.items()}, ids=self.ids[:count])
 
-    def same(self, other: "Evaluated", column: str) -> bool:
-        """Tell whether a column has the same values in both."""
-        return bool(np.array_equal(self.columns[column], other.columns[column], equal_nan=True))
+    def same(self, other: "Evaluated") -> bool:
+        """Tell whether all columns have the same values in both."""
+        return all(np.array_equal(values, other.columns[name], equal_nan=True) for name, values in self.columns.items())
 
 
 @attrs.frozen(kw_only=True)
@@ -51,8 +51,6 @@ class Evaluation:
     """The run that settings change."""
     columns: tuple[str, ...]
     requests: Requests
-    keep: Setting = attrs.field(factory=dict)
-    """Options that all runs have instead of those of the study, such as another world."""
 
     def __call__(self, settings: Sequence[Setting], samples: Sequence[Sample]) -> list[Evaluated]:
         """Return what each setting gives on some samples.
@@ -61,9 +59,7 @@ class Evaluation:
             SearchEnded: as of `Requests.results`.
             InputErrors: a value is refused.
         """
-        changes = [
-            {**self.keep, **setting, "seed": seed, "repeat": repeat} for setting in settings for seed, repeat in samples
-        ]
+        changes = [{**setting, "seed": seed, "repeat": repeat} for setting in settings for seed, repeat in samples]
         labels = [{**setting, "seed": seed} for setting in settings for seed, _ in samples]
         study = read_variants(self.study, self.point, changes, labels)
         results = self.requests.results(study, study.runs)

@@ -18,10 +18,12 @@ from mrpbench_core.engine.loading.runs import StudyRun
 from mrpbench_core.engine.processes.call import in_worker
 from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.suggestions import did_you_mean
+from mrpbench_core.report.reading.axes import SAMPLES
 
 FACTOR = 4.0
 """Between the default of a number and the ends of its range."""
-_RANGE = re.compile(r"(-?[\d.]+(?:e-?\d+)?)\.\.(-?[\d.]+(?:e-?\d+)?)")
+NUMBER = r"(?:\d+(?:\.\d*)?|\.\d+)(?:e[-+]?\d+)?"
+_RANGE = re.compile(rf"(-?{NUMBER})\.\.(-?{NUMBER})")
 
 
 @attrs.frozen(kw_only=True)
@@ -91,6 +93,8 @@ def _named(config: Any, text: str) -> Parameter:
         inside = isinstance(owner, tuple) and step.isdigit() and int(step) < len(owner)
         owner = owner[int(step)] if inside else getattr(owner, step, None)
     fields = {field.alias: field for field in attrs.fields(type(owner))} if attrs.has(type(owner)) else {}
+    if key in SAMPLES:
+        raise InputError(f"--vary {key}: all settings have the same seeds and repeats")
     if steps[-1] not in fields:
         hint = did_you_mean(steps[-1], list(fields)) if fields else "e.g. controller.k_phi"
         raise InputError(f"--vary {key}: the study has no such option", hint=hint)
@@ -115,26 +119,36 @@ def _parameter(key: str, field: Any, default: Any, values: str) -> Parameter:
             return False
         return True
 
-    literals = _literals(field.type)
-    if values and (found := _RANGE.fullmatch(values)) is None:
-        choices = tuple(_word(word.strip(), default) for word in values.split(","))
-    elif not values and (isinstance(default, bool) or literals):
-        choices = literals or (False, True)
+    if not isinstance(default, bool | int | float | str):
+        nothing = f"state one in the study, e.g. {key}=1"
+        hint = nothing if default is None else "name one of its options; `mrpbench choose` compares components"
+        raise InputError(f"--vary {key}: its value in the study is neither a number nor a word", hint=hint)
+    found, literals = _RANGE.fullmatch(values), _literals(field.type)
+    if not found and (values or isinstance(default, bool) or literals):
+        stated = [_word(word.strip(), default) for word in values.split(",")] if values else literals or (False, True)
+        if len(choices := tuple(dict.fromkeys((default, *stated)))) < 2 or len(stated) < 2:
+            raise InputError(f"--vary {key}: give two values or more, or a range such as 0.5..4")
+        return Parameter(key=key, default=default, choices=choices)
+    whole = type(default) is int
+    if found:
+        low, high = float(found[1]), float(found[2])
+        if whole and not (low.is_integer() and high.is_integer()):
+            raise InputError(f"--vary {key}: the ends of {values} are not whole numbers")
+    elif usual := field.metadata.get("usual"):
+        low, high = min(usual[0], default), max(usual[1], default)
     else:
-        usual = field.metadata.get("usual")
-        if values and found:
-            low, high = float(found[1]), float(found[2])
-        elif usual:
-            low, high = (*usual,) if default is None else (min(usual[0], default), max(usual[1], default))
-        else:
-            low, high = _range(key, default, allows)
-        if low >= high:
-            raise InputError(f"--vary {key}: the range {low:g}..{high:g} is empty")
-        default = low if default is None else default
-        return Parameter(key=key, default=default, low=low, high=high, log=low > 0)
-    if len(choices) < 2:
-        raise InputError(f"--vary {key}: give two values or more, or a range such as 0.5..4")
-    return Parameter(key=key, default=default, choices=choices)
+        low, high = _range(key, default, allows)
+    if low >= high:
+        raise InputError(f"--vary {key}: the range {low:g}..{high:g} is empty")
+    if not isinstance(default, int | float) or not low <= default <= high:
+        raise InputError(
+            f"--vary {key}: {low:g}..{high:g} does not contain {default}, with which the search begins",
+            hint="widen the range, or state another value in the study",
+        )
+    for end in (low, high):
+        if not allows(int(end) if whole else end):
+            raise InputError(f"--vary {key}: its option does not allow {end:g}")
+    return Parameter(key=key, default=default, low=low, high=high, log=low > 0)
 
 
 def _literals(kind: Any) -> tuple[Any, ...]:
@@ -156,7 +170,7 @@ def _word(text: str, default: Any) -> Any:
 
 def _range(key: str, default: Any, allows: Callable[[Any], bool]) -> tuple[float, float]:
     """From a quarter to four times a positive default, as far as allowed."""
-    if isinstance(default, bool) or not isinstance(default, int | float) or default <= 0:
+    if not isinstance(default, int | float) or default <= 0:
         raise InputError(f"--vary {key}: its default is {default!r}, so give a range", hint=f"e.g. {key}=0.1..1")
     whole = type(default) is int
 

@@ -68,6 +68,12 @@ def test_a_tuned_controller_is_a_nav2_file_that_gives_the_same_runs(room):
         (("--vary", "goal_tolerance=0.9..0.1"), "--vary goal_tolerance: the range 0.9..0.1 is empty"),
         (("--subject-to", "energy<=3"), "--subject-to energy<=3: the study has no column energy"),
         (("--held-out", "world"), "--held-out world: expected KEY=VALUE"),
+        (("--held-out", "world=["), "command line: world"),
+        (("--held-out", "nosuch=3"), "command line: nosuch: unknown key"),
+        (("--held-out", "limits.none.such=3"), "limits.none"),
+        (("--held-out", "seed=3"), "--held-out seed=3: the held-out seeds are those of the study"),
+        (("--held-out", "controller=rpp"), "--held-out controller=rpp: the search varies controller."),
+        (("--minimize", "execution.duration_s", "--maximize", "execution.duration_s"), "named twice"),
         (("planner=[example, cbs]",), "the study has 2 configurations"),
     ],
 )

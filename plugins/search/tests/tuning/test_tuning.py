@@ -6,8 +6,8 @@ import pytest
 pytest.importorskip("optuna", reason="tuning needs Optuna")
 
 from mrpbench_search.asking.requests import SearchEnded
-from mrpbench_search.tuning.answer import Tuned, sentence, standing_of
-from mrpbench_search.tuning.confirm import Standing, compare_held_out, importances
+from mrpbench_search.tuning.answer import Tuned, importance_table, sentence, standing_of
+from mrpbench_search.tuning.confirm import Importance, Standing, compare_held_out, importances
 from mrpbench_search.tuning.constraints import read_constraints
 from mrpbench_search.tuning.evaluation import Evaluated
 from mrpbench_search.tuning.parameters import Parameter
@@ -121,6 +121,19 @@ def test_lucky_seeds_are_rarely_called_better():
     assert shown <= 2
 
 
+def test_a_parameter_that_is_better_at_its_default_says_so():
+    rows = [Importance(key="a", value=2.0, default=1.0, loss=loss, shown=True) for loss in (0.1, -0.1)]
+    assert [cells[-1] for cells in importance_table(rows)[1]] == ["shown", "the default is better"]
+
+
+def test_an_answer_without_a_setting_says_why():
+    assert sentence("room", [], [DURATION], 16, 1) == "room: no setting but the defaults was tried"
+    search = searched(World(), settings=8, constraints=[f"{DURATION.name}<=1"])
+    assert not any(trial.feasible for trial in search.trials)
+    said = sentence("room", [], [DURATION], 16, 8, met=False)
+    assert said == "room: neither the defaults nor any of 7 other settings meet the constraints, on training seeds"
+
+
 def test_two_objectives_give_a_pareto_front():
     search = searched(World(noise=0.0), objectives=(DURATION, ENERGY))
     values = [(trial.training.mean(DURATION.name), trial.training.mean(ENERGY.name)) for trial in search.best]
@@ -147,6 +160,7 @@ def test_settings_that_are_worse_are_pruned():
         ("succeeded>=base", 0.9, 0.9, True),
         ("succeeded>=base", 0.8, 0.9, False),
         ("energy<=base-0.5", 1.4, 2.0, True),
+        ("energy <= base - .5", 1.6, 2.0, False),
         ("energy<=3", 3.5, 1.0, False),
         ("energy<=3", np.nan, 1.0, False),
     ],
@@ -156,7 +170,7 @@ def test_constraints_compare_means_with_those_of_the_defaults(text, value, base,
     assert (constraint.excess(value, base) <= 0) is holds
 
 
-@pytest.mark.parametrize("text", ["energy", "energy>3", "power<=3", "energy<="])
+@pytest.mark.parametrize("text", ["energy", "energy>3", "power<=3", "energy<=", "energy<=1.2.3", "energy<=base3"])
 def test_other_constraints_are_refused(text):
     with pytest.raises(InputError, match=f"--subject-to {text}"):
         read_constraints([text], {"energy": None})
