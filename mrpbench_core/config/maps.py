@@ -4,7 +4,7 @@ from pathlib import Path
 
 from mrpbench_core.files.yaml import load
 
-SUFFIXES = (".map", ".yaml", ".yml")
+SUFFIXES = (".map", ".yaml", ".yml", ".json")
 
 
 def map_plugin(file: Path) -> str | None:

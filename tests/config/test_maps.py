@@ -14,6 +14,7 @@ BUILDING = "levels: {L1: {vertices: []}}\n"
         ("a.yaml", "image: a.pgm\norigin: [0, 0, 0]\n", "ros_map"),
         ("a.building.yaml", BUILDING, "rmf"),
         ("a.yml", BUILDING, "rmf"),
+        ("a.site.json", '{"format_version": "0.1", "levels": {}}', "rmf"),
         ("office", "", None),
     ],
 )

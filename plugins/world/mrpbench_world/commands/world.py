@@ -27,7 +27,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "world",
         metavar="FILE|NAME",
         nargs="?",
-        help="a .building.yaml, .map or map_server .yaml file, or a built-in world (default: the world of --run)",
+        help="a .building.yaml, .site.json, .map or map_server .yaml file, or a built-in world (default: that of --run)",
     )
     parser.add_argument(
         "--level", help="load only this level of a building (default: all levels, or the first if it has no lanes)"
