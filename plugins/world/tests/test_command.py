@@ -1,5 +1,6 @@
 import argparse
 import json
+from xml.etree import ElementTree
 
 import pytest
 from mrpbench_world.commands import world as command
@@ -117,6 +118,16 @@ def test_of_levels_without_lanes_the_first_is_shown(invoke, tmp_path):
     assert "4.10 × 4.10 m" in told
     with pytest.raises(InputError, match=r"has 2: L1, L2 \(load one level, .* level: L1\}"):
         invoke(file, "--roadmap", "grid")
+
+
+def test_all_levels_are_written_also_without_lanes(invoke, tmp_path):
+    square = "vertices: [[0, 0, 0, ''], [4, 0, 0, ''], [4, 4, 0, ''], [0, 4, 0, '']], walls: [[0, 1, {}], [2, 3, {}]]"
+    file = tmp_path / "two.building.yaml"
+    levels = f"L1: {{elevation: 0, {square}}}\n  L2: {{elevation: 4, {square}}}\n"
+    file.write_text(f"coordinate_system: cartesian_meters\nlevels:\n  {levels}")
+    invoke(file, "--write", tmp_path / "two.sdf")
+    names = {shape.get("name") for shape in ElementTree.parse(tmp_path / "two.sdf").iter("collision")}
+    assert {"L1_wall_0_collision", "L2_wall_1_collision"} <= names
 
 
 @pytest.mark.parametrize(

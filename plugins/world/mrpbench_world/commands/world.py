@@ -27,7 +27,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "world",
         metavar="FILE|NAME",
         nargs="?",
-        help="a .building.yaml, .site.json, .map or map_server .yaml file, or a built-in world (default: that of --run)",
+        help=".building.yaml, .site.json, .map or map_server .yaml file, or a built-in world (default: that of --run)",
     )
     parser.add_argument(
         "--level", help="load only this level of a building (default: all levels, or the first if it has no lanes)"
@@ -90,7 +90,7 @@ def examined(words: dict[str, Any]) -> dict[str, Any]:
 
     arguments = argparse.Namespace(**words)
     fleet = Fleet(robots=(load_robot(arguments.robot),))
-    world = world_source(arguments.world, arguments.level).load()
+    whole = world = world_source(arguments.world, arguments.level).load()
     if len(world.levels) > 1 and not world.lanes and arguments.roadmap is None:  # no roadmap spans them
         world = world_source(arguments.world, world.levels[0].name).load()
     roadmap = _builder(arguments, world).build(world, fleet)
@@ -104,7 +104,7 @@ def examined(words: dict[str, Any]) -> dict[str, Any]:
                 file = file.with_name(f"{file.stem}-{level.name}{file.suffix}")
             plot_world(world, roadmap=roadmap, file=file, level=index)
     if arguments.write is not None:
-        write_world(Path(arguments.write), world, roadmap, arguments.cell_size)
+        write_world(Path(arguments.write), whole, roadmap, arguments.cell_size)
     return attrs.asdict(facts)
 
 
