@@ -2,7 +2,10 @@
 
 import argparse
 import sys
+from contextlib import redirect_stdout
 from pathlib import Path
+
+import attrs
 
 from mrpbench_core.cli.output.table import print_json
 from mrpbench_core.engine.processes.slots import slots_of_this_process
@@ -22,7 +25,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.epilog = (
         "A candidate is a YAML file with the block that the protocol leaves open, e.g. `controller: {plugin: dwb}`."
         " With one file its runs are done, to be compared later. Exit code: 0 nothing is significantly worse in B, 1"
-        " something is or runs are missing, 2 the configuration is wrong, 130 interrupted."
+        " something is or runs are missing, 2 the configuration is wrong, 130 interrupted. Progress goes to stderr."
     )
     parser.add_argument("first", metavar="A", help="candidate that is the reference")
     parser.add_argument("second", metavar="B", nargs="?", help="candidate that is judged")
@@ -35,7 +38,7 @@ def run(arguments: argparse.Namespace) -> int:
     protocol = PROTOCOLS[arguments.protocol]
     files = [arguments.first, *([arguments.second] if arguments.second else [])]
     out = Path(arguments.out or f"results/{protocol.name}")
-    with slots_of_this_process():
+    with slots_of_this_process(), redirect_stdout(sys.stderr):  # a summary of a job has the tables alone
         studies = [read_study(protocol.study(file)) for file in files]
         for file, study in zip(files, studies, strict=True):
             if study.errors:
@@ -60,5 +63,6 @@ def run(arguments: argparse.Namespace) -> int:
         rows = {"comparisons": pairs_of(comparisons), "settings": pairs_of(parts)}
         print_json({"protocol": protocol.name} | rows)
     else:
-        print(markdown([changes_table(comparisons), changes_table(parts)]), end="")
+        tables = [changes_table(comparisons), attrs.evolve(changes_table(parts), title="By setting")]
+        print(markdown(tables), end="")
     return int(any(entry.verdict == "worse" for entry in comparisons))
