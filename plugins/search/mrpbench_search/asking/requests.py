@@ -1,6 +1,7 @@
 """Does the runs that a search asks for in a results folder, and returns their records."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import attrs
 import numpy as np
@@ -65,13 +66,13 @@ class Requests:
         return results
 
 
-def read_whole_study(file: str, overrides: Sequence[str]) -> StudyRuns:
-    """Read a study without errors.
+def read_whole_study(source: str | Mapping[str, Any], overrides: Sequence[str] = ()) -> StudyRuns:
+    """Read a study without errors, from a file or plain data.
 
     Raises:
         InputErrors: a run of it has one.
     """
-    study = read_study(file, overrides)
+    study = read_study(source, overrides)
     if study.errors:
         raise InputErrors(*study.errors)
     return study

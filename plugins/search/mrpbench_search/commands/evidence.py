@@ -8,16 +8,16 @@ from pathlib import Path
 import attrs
 
 from mrpbench_core.cli.output.table import print_json
+from mrpbench_core.engine.loading.runs import StudyRuns
 from mrpbench_core.engine.processes.slots import slots_of_this_process
-from mrpbench_core.engine.study.reading import read_study
 from mrpbench_core.files.errors import InputError, InputErrors
 from mrpbench_core.report.data import pairs_of
 from mrpbench_core.report.folder_comparison import compare_folders
 from mrpbench_core.report.tables.changes import changes_table
 from mrpbench_core.report.tables.write import markdown
 from mrpbench_search.asking.arguments import add_execution, searching
-from mrpbench_search.asking.requests import SearchEnded
-from mrpbench_search.evidence.protocol import PROTOCOLS
+from mrpbench_search.asking.requests import SearchEnded, read_whole_study
+from mrpbench_search.evidence.protocol import PROTOCOLS, Protocol
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -39,10 +39,7 @@ def run(arguments: argparse.Namespace) -> int:
     files = [arguments.first, *([arguments.second] if arguments.second else [])]
     out = Path(arguments.out or f"results/{protocol.name}")
     with slots_of_this_process(), redirect_stdout(sys.stderr):  # a summary of a job has the tables alone
-        studies = [read_study(protocol.study(file)) for file in files]
-        for file, study in zip(files, studies, strict=True):
-            if study.errors:
-                raise InputErrors(*(InputError(error.message, file=file, hint=error.hint) for error in study.errors))
+        studies = [_study(protocol, file) for file in files]
         results = []
         for letter, study in zip("AB", studies, strict=False):
             folder = out / letter if arguments.second else out
@@ -66,3 +63,11 @@ def run(arguments: argparse.Namespace) -> int:
         tables = [changes_table(comparisons), attrs.evolve(changes_table(parts), title="By setting")]
         print(markdown(tables), end="")
     return int(any(entry.verdict == "worse" for entry in comparisons))
+
+
+def _study(protocol: Protocol, file: str) -> StudyRuns:
+    """The runs of a candidate; what is wrong with it is said of its file."""
+    try:
+        return read_whole_study(protocol.study(file))
+    except InputErrors as several:
+        raise InputErrors(*(InputError(each.message, file=file, hint=each.hint) for each in several.errors)) from None

@@ -132,6 +132,14 @@ def test_the_same_file_twice_is_identical_and_a_slower_planner_is_worse(room):
     assert "| worse |" in row
 
 
+def test_what_is_wrong_with_a_candidate_names_its_file(room):
+    Path("wrong.yaml").write_text("planner: {plugin: example, speed: 2}\n")
+    code, _, errors = room("evidence", "base.yaml", "wrong.yaml", "--protocol", "room-1")
+    assert code == 2
+    assert errors.startswith("wrong.yaml: planner.speed: unknown option")
+    assert len(errors.splitlines()) == 1
+
+
 def test_the_steps_of_the_action_write_the_table_of_both_candidates(room, tmp_path):
     action = load(Path(__file__).parents[2] / "action" / "action.yml").data
     install, compare = (step["run"] for step in action["runs"]["steps"])
