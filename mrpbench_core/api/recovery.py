@@ -19,6 +19,10 @@ class Surroundings(ABC):
     def is_free(self, poses: Float) -> Bool:
         """Tell bool[k] at which poses f8[k,3] the robot may be: it fits there, and has not left the place to others."""
 
+    @abstractmethod
+    def heading(self) -> float:
+        """Return the yaw at which the path leads on from where the robot was at first, radians; NaN = it ends there."""
+
 
 class RecoverySession(ABC):
     """One attempt of one robot to recover."""

@@ -131,9 +131,8 @@ def _patch(item: Item, steps: tuple[str, ...], depth: int, new: Item) -> Item:
         return attrs.evolve(item, value={**item.value, step: _patch(inner, steps, depth + 1, new)})
     if isinstance(item.value, list):
         if not _is_index(step):
-            raise new.key.error(
-                key, f"{'.'.join(steps[:depth])} is a list", f"give the index of an entry: {_numbered(steps, depth)}"
-            )
+            first = ".".join((*steps[:depth], "0", *steps[depth:]))
+            raise new.key.error(key, f"{'.'.join(steps[:depth])} is a list", f"give the index of an entry: {first}")
         if int(step) >= len(item.value):
             raise new.key.error(key, f"{'.'.join(steps[:depth])} has only {len(item.value)} entries, counted from 0")
         entries = list(item.value)
@@ -144,7 +143,3 @@ def _patch(item: Item, steps: tuple[str, ...], depth: int, new: Item) -> Item:
 
 def _is_index(step: str) -> bool:
     return step.isdecimal() and len(step) < 9
-
-
-def _numbered(steps: tuple[str, ...], depth: int) -> str:
-    return ".".join((*steps[:depth], "0", *steps[depth:]))

@@ -1,7 +1,6 @@
 """Names the plugin and its distribution behind a failure of a run."""
 
 import traceback
-from collections.abc import Iterator
 
 from mrpbench_core.api.component import Component
 from mrpbench_core.api.contract import BrokenContractError
@@ -19,7 +18,8 @@ def broken(error: BrokenContractError, config: RunConfig | None) -> str:
 def owner_of(error: BaseException, config: RunConfig) -> Component | None:
     """Return the component in whose code an exception was raised, as far as its package tells."""
     components = list(components_in(config))
-    for module in reversed(list(_modules(error))):
+    frames = traceback.walk_tb(error.__traceback__)
+    for module in reversed([str(frame.f_globals.get("__name__", "")) for frame, _ in frames]):
         exact = next((component for component in components if type(component).__module__ == module), None)
         root = module.partition(".")[0]
         alike = (component for component in components if type(component).__module__.partition(".")[0] == root)
@@ -27,8 +27,3 @@ def owner_of(error: BaseException, config: RunConfig) -> Component | None:
         if owner is not None:
             return owner
     return None
-
-
-def _modules(error: BaseException) -> Iterator[str]:
-    for frame, _ in traceback.walk_tb(error.__traceback__):
-        yield str(frame.f_globals.get("__name__", ""))

@@ -49,7 +49,7 @@ PUBLISHED: dict[str, dict[str, tuple[str, ...]]] = {
         "mrpbench.navigators": ("waypoints",),
         "mrpbench.planners": _PLANNERS,
         "mrpbench.predictors": ("constant_velocity", "social_force"),
-        "mrpbench.recoveries": ("back_up", "clear", "spin", "wait"),
+        "mrpbench.recoveries": ("back_up", "clear", "rotate_to_path", "spin", "wait"),
         "mrpbench.scenarios": ("barn", "movingai"),
         "mrpbench.simulators": ("planar",),
         "mrpbench.task_sources": ("charging",),

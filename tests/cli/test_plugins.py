@@ -52,7 +52,10 @@ def test_the_columns_of_a_metric_are_defined(mrpbench):
 def test_components_in_an_option_are_named_as_in_a_configuration(mrpbench):
     facts = json.loads(mrpbench("plugins", "show", "waypoints", "--json")[1])
     recoveries = next(entry for entry in facts["options"] if entry["name"] == "recoveries")
-    assert (recoveries["default"], recoveries["type"]) == ("[clear, spin, wait, back_up]", "tuple[Recovery, ...]")
+    assert (recoveries["default"], recoveries["type"]) == (
+        "[clear, rotate_to_path, spin, wait, back_up]",
+        "tuple[Recovery, ...]",
+    )
     assert mrpbench("plugins", "show", "recovery:spin")[1].startswith("recovery spin")
     assert mrpbench("plugins", "recoveries") == mrpbench("plugins", "recovery")
 

@@ -28,6 +28,10 @@ class Everywhere(Surroundings):
         """Return the same for all poses."""
         return np.full(len(poses), self._free)
 
+    def heading(self) -> float:
+        """Return another yaw than that of the robot."""
+        return -1.5
+
 
 class RecoveryConformance(ComponentConformance):
     """Checks of recoveries: `class TestMine(RecoveryConformance)`."""

@@ -63,3 +63,19 @@ def test_dwb_keeps_clear_of_thin_pillars_and_diagonal_walls(tmp_path, seed):
     (record,) = mrpbench_core.run(study, out=tmp_path / "results")
     assert record["status"] == "succeeded", record.get("error")
     assert record["metrics"]["execution.wall_contacts"] == 0
+
+
+@pytest.mark.parametrize("seed", [6, 8, 18])  # rpp begins to drive before it heads along the lane, and meets a shelf
+def test_a_robot_that_finds_a_collision_ahead_turns_to_its_path_and_arrives(tmp_path, seed):
+    pytest.importorskip("mrpbench_planners_mapf")
+    study = {
+        "world": "warehouse",
+        "scenario": {"plugin": "random", "robots": 6},
+        "planner": "cbs",
+        "controller": "rpp",
+        "simulator": "planar",
+        "metrics": ["execution"],
+        "seed": seed,
+    }
+    (record,) = mrpbench_core.run(study, out=tmp_path)
+    assert record["status"] == "succeeded", record.get("error")

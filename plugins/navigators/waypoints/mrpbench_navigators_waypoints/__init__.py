@@ -5,7 +5,7 @@ robots are, where they go next, and which are stuck (in C++, on `route_tables`),
 `detours` for ways around, and `recovery_manager` for the `recoveries`.
 """
 
-from mrpbench_navigators_waypoints.recoveries import BackUp, Clear, Spin, Wait
+from mrpbench_navigators_waypoints.recoveries import BackUp, Clear, RotateToPath, Spin, Wait
 from mrpbench_navigators_waypoints.waypoints import Waypoints
 
-__all__ = ["BackUp", "Clear", "Spin", "Wait", "Waypoints"]
+__all__ = ["BackUp", "Clear", "RotateToPath", "Spin", "Wait", "Waypoints"]

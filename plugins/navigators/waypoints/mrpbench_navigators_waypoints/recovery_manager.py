@@ -104,59 +104,82 @@ class RecoveryManager:
 
     def _surroundings(self, robot: int, pose: Float) -> Surroundings:
         here = pose[robot, :2]
+        heading = self._follower.heading(robot, *here.tolist())
         if self._robots[robot].lidar is None:
-            return _HeldSurroundings(self._controllers, robot, self._follower.held_way(robot), here)
+            return _HeldSurroundings(self._controllers, robot, heading, self._follower.held_way(robot), here)
         vertex, distance = self._follower.cleared_vertex(robot, *here.tolist())
-        return _KnownSurroundings(self._controllers, robot, vertex, distance)
+        return _KnownSurroundings(self._controllers, robot, heading, vertex, distance)
 
 
-class _KnownSurroundings(Surroundings):
-    """The surroundings of a robot, without the vertex that it has left to other robots.
+class _Surroundings(Surroundings):
+    """The surroundings of a robot.
 
     Args:
         controllers: know which poses are free.
         robot: index of the robot.
-        vertex: x, y of the vertex that it cleared last, or None.
-        distance: metres that it must keep from there.
+        heading: radians, of the path ahead of it.
     """
 
-    def __init__(
-        self, controllers: FleetControllerSession, robot: int, vertex: tuple[float, float] | None, distance: float
-    ) -> None:
-        self._controllers, self._robot = controllers, robot
-        self._vertex, self._distance = vertex, distance
+    def __init__(self, controllers: FleetControllerSession, robot: int, heading: float) -> None:
+        self._controllers, self._robot, self._heading = controllers, robot, heading
 
     def clear(self) -> None:
         self._controllers.clear(self._robot)
 
     def is_free(self, poses: Float) -> Bool:
-        free = self._controllers.is_free(self._robot, poses)
+        return self._controllers.is_free(self._robot, poses)
+
+    def heading(self) -> float:
+        return self._heading
+
+
+class _KnownSurroundings(_Surroundings):
+    """The surroundings of a robot, without the vertex that it has left to other robots.
+
+    Args:
+        controllers, robot, heading: see `_Surroundings`.
+        vertex: x, y of the vertex that it cleared last, or None.
+        distance: metres that it must keep from there.
+    """
+
+    def __init__(
+        self,
+        controllers: FleetControllerSession,
+        robot: int,
+        heading: float,
+        vertex: tuple[float, float] | None,
+        distance: float,
+    ) -> None:
+        super().__init__(controllers, robot, heading)
+        self._vertex, self._distance = vertex, distance
+
+    def is_free(self, poses: Float) -> Bool:
+        free = super().is_free(poses)
         if self._vertex is None:
             return free
         apart: Bool = np.hypot(poses[:, 0] - self._vertex[0], poses[:, 1] - self._vertex[1]) >= self._distance
         return free & apart
 
 
-class _HeldSurroundings(Surroundings):
+class _HeldSurroundings(_Surroundings):
     """The surroundings of a robot without a lidar, which sees no other robot: the way that it still holds.
 
     Args:
-        controllers: know which poses are free.
-        robot: index of the robot.
+        controllers, robot, heading: see `_Surroundings`.
         held: waypoints f8[k,2] that no other robot may be at, in order.
         here: f8[2], where the robot is; it need not come nearer to them.
     """
 
-    def __init__(self, controllers: FleetControllerSession, robot: int, held: Float, here: Float) -> None:
-        self._controllers, self._robot, self._held = controllers, robot, held
+    def __init__(
+        self, controllers: FleetControllerSession, robot: int, heading: float, held: Float, here: Float
+    ) -> None:
+        super().__init__(controllers, robot, heading)
+        self._held = held
         self._distance = float(self._from_held(here[None])[0]) + SLACK
-
-    def clear(self) -> None:
-        self._controllers.clear(self._robot)
 
     def is_free(self, poses: Float) -> Bool:
         near: Bool = self._from_held(poses[:, :2]) <= self._distance
-        return near & self._controllers.is_free(self._robot, poses)
+        return near & super().is_free(poses)
 
     def _from_held(self, points: Float) -> Float:
         """Metres f8[k] from the held way."""

@@ -11,9 +11,11 @@ from mrpbench_native.navigation import Navigation
 from mrpbench_core.model.common.arrays import Bool, Byte, Float, Int, Int16, Int32, read_only
 from mrpbench_core.model.execution.motion import Mode
 from mrpbench_core.model.execution.route import Route, Routes
-from mrpbench_navigators_waypoints.route_tables import SLACK, ArrivalRules, RouteTables
+from mrpbench_navigators_waypoints.route_tables import SLACK, USUAL, ArrivalRules, RouteTables
 
 _NO_LIMITS: Float = np.zeros(0)
+_AHEAD = 0.3
+"""metres along the path at which its direction is measured."""
 _MODES = np.array([Mode.WAITING, Mode.FOLLOWING], np.uint8)
 """The mode of a robot that neither recovers nor has given up, by whether it is under way."""
 
@@ -182,6 +184,13 @@ class RouteFollower:
         end_x, end_y = self.corners[self.end[robot] - 1].tolist()
         stated = min(self._rules.waypoint_tolerance, self._rules.xy_goal_tolerance)
         return self.tables.tolerance < math.hypot(x - end_x, y - end_y) <= stated
+
+    def heading(self, robot: int, x: float, y: float) -> float:
+        """The yaw from x, y to the path ahead of a robot, radians; NaN where it has hardly any way left."""
+        path = np.vstack([self.foot[robot], self.corners[self.begin[robot] : self.end[robot]]])
+        along = np.append(0.0, np.cumsum(np.hypot(*np.diff(path, axis=0).T)))
+        dx, dy = (np.interp(_AHEAD, along, path[:, axis]) - here for axis, here in enumerate((x, y)))
+        return math.atan2(dy, dx) if math.hypot(dx, dy) > USUAL else math.nan
 
     def segment_ends(self, robots: Int, segments: Int) -> tuple[Float, Float]:
         """The places f8[k,2] at which segments i8[k] of robots i8[k] start and end."""

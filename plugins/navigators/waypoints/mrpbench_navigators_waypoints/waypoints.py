@@ -24,7 +24,7 @@ from mrpbench_navigators_waypoints.controller_server import ControllerServer
 from mrpbench_navigators_waypoints.detours import Detours
 from mrpbench_navigators_waypoints.recoveries.back_up import BackUp
 from mrpbench_navigators_waypoints.recoveries.clear import Clear
-from mrpbench_navigators_waypoints.recoveries.spin import Spin
+from mrpbench_navigators_waypoints.recoveries.spin import RotateToPath, Spin
 from mrpbench_navigators_waypoints.recoveries.wait import Wait
 from mrpbench_navigators_waypoints.recovery_manager import RecoveryManager, RecoveryOptions
 from mrpbench_navigators_waypoints.rotations import Rotations
@@ -116,7 +116,7 @@ class Waypoints(Navigator):
         validator=ge(0),
     )
     recoveries: tuple[Recovery, ...] = option(
-        (Clear(), Spin(), Wait(), BackUp()), help="recoveries of a robot that is stuck, in turn"
+        (Clear(), RotateToPath(), Spin(), Wait(), BackUp()), help="recoveries of a robot that is stuck, in turn"
     )
     max_recoveries: int = option(
         6, help="recoveries that a robot tries between two waypoints before it gives up", validator=ge(0)

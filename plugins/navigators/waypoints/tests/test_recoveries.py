@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from mrpbench_navigators_waypoints.recoveries.back_up import BackUp
 from mrpbench_navigators_waypoints.recoveries.clear import Clear
-from mrpbench_navigators_waypoints.recoveries.spin import Spin
+from mrpbench_navigators_waypoints.recoveries.spin import RotateToPath, Spin
 from mrpbench_navigators_waypoints.recoveries.wait import Wait
 
 from mrpbench_core.api import Surroundings
@@ -15,16 +15,19 @@ PERIOD = 0.05
 
 
 class Room(Surroundings):
-    """Free wherever `free` says so."""
+    """Free wherever `free` says so; the path leads on at the yaw `ahead`."""
 
-    def __init__(self, free=lambda pose: True):
-        self.free, self.cleared = free, 0
+    def __init__(self, free=lambda pose: True, ahead=-2.0):
+        self.free, self.ahead, self.cleared = free, ahead, 0
 
     def clear(self):
         self.cleared += 1
 
     def is_free(self, poses):
         return np.array([self.free(pose) for pose in poses.tolist()], bool)
+
+    def heading(self):
+        return self.ahead
 
 
 def attempt(recovery, room, moves=True):
@@ -67,6 +70,21 @@ def test_spinning_turns_by_the_angle_within_its_speeds():
     assert (poses[:, :2] == (1.0, 2.0)).all()
 
 
+@pytest.mark.parametrize(("ahead", "turn"), [(-2.0, math.tau - 5.0), (2.5, -0.5), (3.2, 0.2)])
+def test_a_robot_turns_the_shorter_way_to_its_path(ahead, turn):
+    poses, commands, succeeded = attempt(RotateToPath(), Room(ahead=ahead))
+    assert succeeded
+    over = (np.diff(np.unwrap(poses[:, 2])).sum() - turn) * math.copysign(1, turn)
+    assert 0 <= over < PERIOD
+    assert all(0.4 <= abs(rate) <= 1.0 for _, rate in commands)
+    assert (poses[:, :2] == (1.0, 2.0)).all()
+
+
+@pytest.mark.parametrize("ahead", [3.05, 2.95, math.nan])
+def test_a_robot_that_heads_along_its_path_has_nothing_to_turn_to(ahead):
+    assert attempt(RotateToPath(), Room(ahead=ahead))[1:] == ([], False)
+
+
 def test_backing_up_drives_straight_back():
     poses, commands, succeeded = attempt(BackUp(), Room())
     assert succeeded
@@ -75,7 +93,7 @@ def test_backing_up_drives_straight_back():
     assert gone @ (math.cos(3.0), math.sin(3.0)) == pytest.approx(-0.15, abs=0.002)
 
 
-@pytest.mark.parametrize("recovery", [Spin(), BackUp()])
+@pytest.mark.parametrize("recovery", [RotateToPath(), Spin(), BackUp()])
 def test_nothing_is_tried_where_there_is_no_room(recovery):
     assert attempt(recovery, Room(lambda pose: False))[1:] == ([], False)
 
@@ -86,7 +104,7 @@ def test_backing_up_ends_before_an_obstacle_behind_the_robot():
     assert math.dist(poses[-1, :2], (1, 2)) < 0.1
 
 
-@pytest.mark.parametrize("recovery", [Spin(), BackUp()])
+@pytest.mark.parametrize("recovery", [RotateToPath(), Spin(), BackUp()])
 def test_an_attempt_that_something_holds_has_failed_after_its_time(recovery):
     _, commands, succeeded = attempt(recovery, Room(), moves=False)
     assert not succeeded

@@ -141,7 +141,7 @@ def test_a_robot_without_progress_tries_recoveries_in_turn_and_then_gives_up(fle
     happened = [
         event.detail if event.kind == "recovery" else event.kind for event in events if event.kind != "recovery_failed"
     ]
-    tried = ["clear", "spin", "wait", "back_up", "clear", "spin"]
+    tried = ["clear", "rotate_to_path", "spin", "wait", "back_up", "clear"]
     assert happened == [word for name in tried for word in ("no_progress", name)] + ["no_progress", "aborted"]
     assert {event.robot for event in events} == {0}
     assert events[-1].detail == "no_progress"

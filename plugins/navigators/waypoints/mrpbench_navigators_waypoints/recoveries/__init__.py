@@ -2,7 +2,7 @@
 
 from mrpbench_navigators_waypoints.recoveries.back_up import BackUp
 from mrpbench_navigators_waypoints.recoveries.clear import Clear
-from mrpbench_navigators_waypoints.recoveries.spin import Spin
+from mrpbench_navigators_waypoints.recoveries.spin import RotateToPath, Spin
 from mrpbench_navigators_waypoints.recoveries.wait import Wait
 
-__all__ = ["BackUp", "Clear", "Spin", "Wait"]
+__all__ = ["BackUp", "Clear", "RotateToPath", "Spin", "Wait"]
