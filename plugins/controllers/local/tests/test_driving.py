@@ -79,3 +79,35 @@ def test_a_robot_that_finds_a_collision_ahead_turns_to_its_path_and_arrives(tmp_
     }
     (record,) = mrpbench_core.run(study, out=tmp_path)
     assert record["status"] == "succeeded", record.get("error")
+
+
+def test_burgers_that_make_room_for_a_waffle_with_dwb_clear_the_crossing(tmp_path):
+    study = {
+        "world": "warehouse",
+        "scenario": {"plugin": "random", "robots": 4},
+        "fleet": [{"robot": "turtlebot3_burger", "count": 3}, "turtlebot3_waffle"],
+        "planner": "prioritized",
+        "controller": "dwb",
+        "simulator": "planar",
+        "metrics": ["execution"],
+        "limits": {"execution": 200.0},
+        "seed": 0,
+    }
+    (record,) = mrpbench_core.run(study, out=tmp_path)
+    assert record["status"] == "succeeded", record.get("error")
+
+
+def test_a_robot_that_mppi_leaves_beside_a_bend_drives_on(tmp_path):
+    pytest.importorskip("mrpbench_planners_mapf")
+    study = {
+        "world": "office",
+        "scenario": {"plugin": "random", "robots": 5},
+        "planner": "eecbs",
+        "controller": "mppi",
+        "simulator": "planar",
+        "metrics": ["execution"],
+        "seed": 2,
+    }
+    (record,) = mrpbench_core.run(study, out=tmp_path)
+    assert record["status"] == "succeeded", record.get("error")
+    assert record["metrics"]["execution.duration_s"] < 58  # 65 s where the robot waits for its recoveries

@@ -15,6 +15,7 @@ from mrpbench_core.model.common.arrays import Bool, Float
 from mrpbench_core.model.common.fleet import RobotModel
 from mrpbench_core.model.common.geometry import point_segment_distance
 from mrpbench_core.model.execution.motion import Event
+from mrpbench_navigators_waypoints.approaches import Approach
 from mrpbench_navigators_waypoints.route_follower import RouteFollower
 from mrpbench_navigators_waypoints.route_tables import SLACK
 
@@ -32,7 +33,8 @@ class RecoveryOptions:
 
 
 class RecoveryManager:
-    """Runs the recoveries of all robots. As in Nav2, each attempt of a robot is with the recovery after its last one.
+    """Runs the recoveries of all robots. As in Nav2, each attempt of a robot is with the recovery after its last one,
+    and one that fails is followed by the next one at once.
 
     Args:
         robots: the fleet.
@@ -54,6 +56,8 @@ class RecoveryManager:
         self._sessions: dict[int, tuple[str, RecoverySession]] = {}
         self._next = [0] * len(robots)
         self._attempts = [0] * len(robots)
+        self._failed = [0] * len(robots)
+        """Recoveries of each robot that have failed, one after another, in its attempt."""
         self._reached = [0] * len(robots)
         self.recovering: Bool = follower.activities.recovering
         self.aborted: Bool = follower.activities.aborted
@@ -77,16 +81,29 @@ class RecoveryManager:
         if self._attempts[robot] > self._options.max_recoveries or not self._names:
             self.aborted[robot] = self._some_aborted = True
             return False
+        self._failed[robot] = 0
+        self._begin_next(robot, now, pose, events)
+        return True
+
+    def _begin_next(self, robot: int, now: float, pose: Float, events: list[Event]) -> None:
         index = self._next[robot] % len(self._names)
         name, recovery = self._names[index], self._options.recoveries[index]
         self._next[robot] += 1
         session = recovery.start(self._robots[robot], self._surroundings(robot, pose), self._options.period)
         if not isinstance(session, RecoverySession):
             raise BrokenContractError(f"the recovery {name} returned {type(session).__name__} instead of a session")
+        self._run(robot, now, name, session, events)
+
+    def approach(self, robot: int, now: float, pose: Float, events: list[Event]) -> None:
+        """Drive a robot straight to the end of its path; that is not one of its attempts."""
+        place, period = self._follower.path_end(robot), self._options.period
+        session = Approach(place, self._robots[robot], self._surroundings(robot, pose), period)
+        self._run(robot, now, "drive_on_heading", session, events)
+
+    def _run(self, robot: int, now: float, name: str, session: RecoverySession, events: list[Event]) -> None:
         self._sessions[robot] = name, session
         self.recovering[robot] = True
         events.append(Event(stamp=now, kind="recovery", robot=robot, detail=name))
-        return True
 
     def step(self, now: float, pose: Float, measured: Float, twist: Float) -> list[Event]:
         """Write the commands of recovering robots into `twist` f8[n,2]; returns the events that follow."""
@@ -98,6 +115,9 @@ class RecoveryManager:
                 self.recovering[robot] = False
                 if not answer:
                     events.append(Event(stamp=now, kind="recovery_failed", robot=robot, detail=name))
+                    self._failed[robot] += 1
+                    if not isinstance(session, Approach) and self._failed[robot] < len(self._names):
+                        self._begin_next(robot, now, pose, events)
             else:
                 twist[robot] = _command(answer, name, robot)
         return events

@@ -28,9 +28,9 @@ OFFSET = 0.01
 """metres from its vertex at which a robot has settled there."""
 FACING = 0.02
 """radians off its way at which a robot is ready to drive."""
-_TURN_RATE = 1.0
+TURN_RATE = 1.0
 """rad/s at most, as Nav2's `spin`."""
-_ASIDE = 0.1
+ASIDE = 0.1
 """radians off its way at which a robot that drives stops, and turns back first."""
 _ADVANCE = 0.1
 """Share of a segment that counts as progress of a group."""
@@ -55,7 +55,7 @@ class Rotations:
         self._brake = np.array([robot.acceleration for robot in robots])
         self._turn_brake = np.array([robot.turn_acceleration for robot in robots])
         self._speed = np.array([robot.max_speed for robot in robots])
-        self._turn_rate = np.minimum([robot.max_turn_rate for robot in robots], _TURN_RATE)
+        self._turn_rate = np.minimum([robot.max_turn_rate for robot in robots], TURN_RATE)
         self._in_step: tuple[Group, ...] = ()
         self._robots: Int = np.zeros(0, np.int64)
         """i8[k]: robots of the groups, one group after another; `_segments` i8[k] are theirs."""
@@ -166,7 +166,7 @@ class Rotations:
         error = np.where(back, wrapped(error + np.pi), error)
         command = self._on_the_spot(error)
         speed = np.where(back, -1.0, 1.0) * self._stopping(np.hypot(dx, dy))
-        command[:, 0] = np.where(np.abs(error) > _ASIDE, 0.0, speed)
+        command[:, 0] = np.where(np.abs(error) > ASIDE, 0.0, speed)
         return command
 
     def _along(self, distance: Float, aside: Float, error: Float) -> Float:
@@ -180,24 +180,25 @@ class Rotations:
         command = self._on_the_spot(-error)
         speed, limit = self._stopping(distance), self._turn_rate[self._robots]
         steering = (-_STEERING[0] * speed * aside - _STEERING[1] * error).clip(-limit, limit)
-        straight = np.abs(error) <= _ASIDE
+        straight = np.abs(error) <= ASIDE
         command[straight] = np.column_stack([speed, steering])[straight]
         return command
 
     def _on_the_spot(self, angle: Float) -> Float:
         """Commands f8[k,2] to turn by angles, at rates from which the robots still stop there."""
-        rate = _stopping_speed(np.abs(angle), self._turn_brake[self._robots], self._period)
+        rate = stopping_speed(np.abs(angle), self._turn_brake[self._robots], self._period)
         return np.column_stack(
             [np.zeros(len(angle)), np.copysign(np.minimum(rate, self._turn_rate[self._robots]), angle)]
         )
 
     def _stopping(self, distance: Float) -> Float:
         """The speeds f8[k] from which robots still stop within a distance, metres."""
-        speed = _stopping_speed(distance, self._brake[self._robots], self._period)
+        speed = stopping_speed(distance, self._brake[self._robots], self._period)
         allowed: Float = np.minimum(self._speed[self._robots], self._follower.speed[self._robots])
         return np.minimum(speed, allowed, out=speed)
 
 
-def _stopping_speed(distance: Float, brake: Float, period: float) -> Float:
+def stopping_speed(distance: Float | float, brake: Float | float, period: float) -> Float:
+    """The speed from which a robot still stops within a distance, metres or radians; `brake` is its deceleration."""
     speed: Float = brake * (np.sqrt(period**2 + 2 * np.maximum(distance, 0.0) / brake) - period)
     return speed

@@ -177,13 +177,17 @@ class RouteFollower:
 
     def is_near_path_end(self, robot: int, x: float, y: float) -> bool:
         """Tell whether a robot is within the stated tolerance of the end of its path, but has to come nearer to clear
-        the place before. Not every controller can: DWB's grids have cells of 0.05 m.
+        the place before.
         """
         if self.activities.detouring[robot]:
             return False
-        end_x, end_y = self.corners[self.end[robot] - 1].tolist()
         stated = min(self._rules.waypoint_tolerance, self._rules.xy_goal_tolerance)
-        return self.tables.tolerance < math.hypot(x - end_x, y - end_y) <= stated
+        return self.tables.tolerance < math.dist(self.path_end(robot), (x, y)) <= stated
+
+    def path_end(self, robot: int) -> tuple[float, float]:
+        """x, y of the end of what lies ahead of a robot."""
+        x, y = self.corners[self.end[robot] - 1].tolist()
+        return x, y
 
     def heading(self, robot: int, x: float, y: float) -> float:
         """The yaw from x, y to the path ahead of a robot, radians; NaN where it has hardly any way left."""

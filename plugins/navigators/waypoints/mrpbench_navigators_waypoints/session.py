@@ -13,6 +13,7 @@ from mrpbench_core.model.execution.observation import FleetObservation, Observat
 from mrpbench_core.model.execution.orders import Orders
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.worlds.world import World
+from mrpbench_navigators_waypoints.approaches import Approaches
 from mrpbench_navigators_waypoints.controller_server import ControllerServer
 from mrpbench_navigators_waypoints.detours import Detours
 from mrpbench_navigators_waypoints.obstructions import obstruction
@@ -29,6 +30,7 @@ class WaypointsSession(NavigatorSession):
     controllers: ControllerServer
     detours: Detours
     recoveries: RecoveryManager
+    approaches: Approaches
     rotations: Rotations
     fleet: Fleet
     world: World
@@ -40,6 +42,7 @@ class WaypointsSession(NavigatorSession):
             self.rotations.cut(cut)
         self.detours.cancel_all()
         self.recoveries.reset()
+        self.approaches.reset()
 
     def step(self, now: float, observation: FleetObservation, orders: Orders) -> Motion:
         """Command all robots for one control period."""
@@ -60,6 +63,9 @@ class WaypointsSession(NavigatorSession):
         failed = self.controllers.have_failed(now)
         if failed or stuck is not None:
             self._recover(now, observation, stuck, failed, twist, events)
+        if targets.blocked:
+            for robot in self.approaches.find(targets.rows["robot"][targets.blocked].tolist(), pose, measured):
+                recoveries.approach(robot, now, pose, events)
         if recoveries:
             events += recoveries.step(now, pose, measured, twist)
         return Motion(

@@ -19,6 +19,7 @@ from mrpbench_core.files.nav2_file import Nav2File
 from mrpbench_core.model.common.fleet import Fleet
 from mrpbench_core.model.execution.route import Route
 from mrpbench_core.model.worlds.world import World
+from mrpbench_navigators_waypoints.approaches import Approaches
 from mrpbench_navigators_waypoints.checkers import from_nav2, parameters_of, several_in
 from mrpbench_navigators_waypoints.controller_server import ControllerServer
 from mrpbench_navigators_waypoints.detours import Detours
@@ -195,6 +196,7 @@ class Waypoints(Navigator):
             follower=follower,
             controllers=ControllerServer(controllers, type(controller).__name__, nav2["failure_tolerance"]),
             detours=Detours(follower, controllers, self.planner_tolerance, rules.waypoint_tolerance),
+            approaches=Approaches(follower),
             recoveries=RecoveryManager(fleet.robots, recoveries, controllers, follower),
             rotations=Rotations(follower, fleet.robots, period, nav2["movement_time_allowance"]),
             fleet=fleet,
