@@ -9,19 +9,25 @@
 
 namespace mrpbench::local::mppi {
 
-/// How far the controls of samples are from a plan in one step, on one axis: unit * row[k] - plan each. The rows are
-/// noise, or velocities.
-template <class T>
-struct Deviations {
-  const T* row = nullptr;
-  float unit = 1, plan = 0;
+/// How far the controls of samples are from a plan in one step, on one axis: unit * row[k] each.
+struct NoiseRow {
+  const std::int16_t* row = nullptr;
+  float unit = 1;
 };
-using NoiseRows = std::span<const Deviations<std::int16_t>>;
-using VelocityRows = std::span<const Deviations<float>>;
+using NoiseRows = std::span<const NoiseRow>;
+
+/// The same by the velocities that follow: row[k] - plan each.
+struct VelocityRow {
+  const float* row = nullptr;
+  float plan = 0;
+};
+using VelocityRows = std::span<const VelocityRow>;
 
 /// The sum of weights, of which the last ones are 0 so that their number is a multiple of `kBlock`.
 float sum(std::span<const float> weights);
-/// Add to a plan, step by step, the sum over samples of weight * deviation.
+/// Add to a plan, step by step, the sum over the samples of a block of weight * deviation. Weights of noise are
+/// rounded to 1/32767 of their sum, so that sums are exact in any order: the mean of 256 samples with equal weights is
+/// off by 1.4e-4 standard deviations, less than a hundredth of what it is off by chance.
 void add_weighted(std::span<const float> weights, NoiseRows steps, std::span<float> plan);
 void add_weighted(std::span<const float> weights, VelocityRows steps, std::span<float> plan);
 

@@ -30,7 +30,7 @@ class Constraint : public Critic {
       const float* const wz = batch.wz[t];
       MRPBENCH_NO_OVERLAP
       for (std::size_t k = 0; k < raw.size(); ++k) {
-        raw[k] += batch.dt * std::max(std::max(vx[k] - limit.vx_max, limit.vx_min - vx[k]), 0.0f);
+        raw[k] += batch.dt * std::max(0.0f, std::max(vx[k] - limit.vx_max, limit.vx_min - vx[k]));
       }
       if (limit.min_turning_r <= 0) continue;
       for (std::size_t k = 0; k < raw.size(); ++k) {
@@ -46,7 +46,7 @@ MRPBENCH_WIDE void add_reverse(const Batch& batch, std::span<float> raw) {
   for (std::size_t t = 0; t < batch.steps(); ++t) {
     const float* const vx = batch.vx[t];
     MRPBENCH_NO_OVERLAP
-    for (std::size_t k = 0; k < raw.size(); ++k) raw[k] += std::max(-batch.dt * vx[k], 0.0f);
+    for (std::size_t k = 0; k < raw.size(); ++k) raw[k] += std::max(0.0f, -batch.dt * vx[k]);
   }
 }
 

@@ -200,13 +200,13 @@ void Mppi::each_deviation(Visit&& visit) {
   const auto axis = [&](const Rows<std::int16_t>& noise, double std, const Table& velocities, std::size_t late,
                         std::span<const float> centre, std::span<float> plan) {
     const std::size_t clamped = options_.clamp_raw_controls ? plan.size() - 1 - late : 0;
-    std::vector<Deviations<float>> followed;
-    for (std::size_t t = 0; t < clamped; ++t) followed.push_back({velocities[t + 1 + late], 1, centre[t]});
+    std::vector<VelocityRow> followed;
+    for (std::size_t t = 0; t < clamped; ++t) followed.push_back({velocities[t + 1 + late], centre[t]});
     if (clamped > 0) visit(VelocityRows(followed), std, centre, plan);
-    std::vector<Deviations<std::int16_t>> drawn;
+    std::vector<NoiseRow> drawn;
     drawn.reserve(plan.size());
     for (std::size_t t = clamped; t < plan.size(); ++t) {
-      drawn.push_back({noise[its.row(t)], static_cast<float>(std) * Noise::kUnit, 0});
+      drawn.push_back({noise[its.row(t)], static_cast<float>(std) * Noise::kUnit});
     }
     visit(NoiseRows(drawn), std, centre.subspan(clamped), plan.subspan(clamped));
   };

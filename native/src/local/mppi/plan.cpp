@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "mrpbench_common/wide.hpp"
+#include "mrpbench_local/mppi/noise.hpp"
 
 namespace mrpbench::local::mppi {
 
@@ -18,48 +20,10 @@ void load(Lanes& lanes, const float* from) {
   std::memcpy(&lanes, from, sizeof lanes);
 }
 
-void load(Lanes& lanes, const std::int16_t* from) {
-  std::int16_t __attribute__((vector_size(kLanes * sizeof(std::int16_t)))) row;
-  std::memcpy(&row, from, sizeof row);
-  using Numbers = std::int32_t __attribute__((vector_size(kLanes * sizeof(std::int32_t))));
-  lanes = __builtin_convertvector(__builtin_convertvector(row, Numbers), Lanes);
-}
-
 float total(const Lanes& it) {
   float part[8];
   for (std::size_t i = 0; i < 8; ++i) part[i] = it[i] + it[i + 8];
   return ((part[0] + part[1]) + (part[2] + part[3])) + ((part[4] + part[5]) + (part[6] + part[7]));
-}
-
-template <class T>
-[[gnu::always_inline]] inline void add_weighted_of(std::span<const float> weights, std::span<const Deviations<T>> steps,
-                                                   std::span<float> plan) {
-  for (std::size_t t = 0; t < steps.size(); ++t) {
-    const Deviations<T> from = steps[t];
-    Lanes sums[2]{};
-    for (std::size_t k = 0; k < weights.size(); k += 2 * kLanes) {
-      for (std::size_t i = 0; i < 2; ++i) {
-        Lanes weight, value;
-        load(weight, &weights[k + i * kLanes]);
-        load(value, from.row + k + i * kLanes);
-        sums[i] += weight * (value * from.unit - from.plan);
-      }
-    }
-    plan[t] += total(sums[0] + sums[1]);
-  }
-}
-
-template <class T>
-[[gnu::always_inline]] inline void add_deviations_of(std::span<const Deviations<T>> steps, std::span<const float> per,
-                                                     std::span<float> total) {
-  float* const sums = total.data();
-  const std::size_t count = total.size();
-  for (std::size_t t = 0; t < steps.size(); ++t) {
-    const T* const row = steps[t].row;
-    const float unit = steps[t].unit, plan = steps[t].plan, cost = per[t];
-    MRPBENCH_NO_OVERLAP
-    for (std::size_t k = 0; k < count; ++k) sums[k] += cost * (static_cast<float>(row[k]) * unit - plan);
-  }
 }
 
 }  // namespace
@@ -75,19 +39,49 @@ MRPBENCH_WIDE float sum(std::span<const float> weights) {
 }
 
 MRPBENCH_WIDE void add_weighted(std::span<const float> weights, NoiseRows steps, std::span<float> plan) {
-  add_weighted_of(weights, steps, plan);
+  constexpr std::int32_t kWhole = std::numeric_limits<std::int16_t>::max();
+  static_assert((kWhole + kBlock) * Noise::kMost * Noise::kPer <= std::numeric_limits<std::int32_t>::max());
+  const float whole = sum(weights);
+  if (whole == 0) return;
+  const std::size_t count = weights.size();
+  std::array<std::int16_t, kBlock> part;
+  for (std::size_t k = 0; k < count; ++k) part[k] = static_cast<std::int16_t>(weights[k] / whole * kWhole + 0.5f);
+  for (std::size_t t = 0; t < steps.size(); ++t) {
+    std::int32_t sum = 0;
+    for (std::size_t k = 0; k < count; ++k) sum += part[k] * steps[t].row[k];
+    plan[t] += static_cast<float>(sum) * (steps[t].unit * whole / kWhole);
+  }
 }
 
 MRPBENCH_WIDE void add_weighted(std::span<const float> weights, VelocityRows steps, std::span<float> plan) {
-  add_weighted_of(weights, steps, plan);
+  for (std::size_t t = 0; t < steps.size(); ++t) {
+    Lanes sum{};
+    for (std::size_t k = 0; k < weights.size(); k += kLanes) {
+      Lanes weight, velocity;
+      load(weight, &weights[k]);
+      load(velocity, steps[t].row + k);
+      sum += weight * (velocity - steps[t].plan);
+    }
+    plan[t] += total(sum);
+  }
 }
 
 MRPBENCH_WIDE void add_deviations(NoiseRows steps, std::span<const float> per, std::span<float> total) {
-  add_deviations_of(steps, per, total);
+  for (std::size_t t = 0; t < steps.size(); ++t) {
+    const std::int16_t* const row = steps[t].row;
+    const float cost = per[t] * steps[t].unit;
+    MRPBENCH_NO_OVERLAP
+    for (std::size_t k = 0; k < total.size(); ++k) total[k] += cost * static_cast<float>(row[k]);
+  }
 }
 
 MRPBENCH_WIDE void add_deviations(VelocityRows steps, std::span<const float> per, std::span<float> total) {
-  add_deviations_of(steps, per, total);
+  for (std::size_t t = 0; t < steps.size(); ++t) {
+    const float* const row = steps[t].row;
+    const float cost = per[t], plan = steps[t].plan;
+    MRPBENCH_NO_OVERLAP
+    for (std::size_t k = 0; k < total.size(); ++k) total[k] += cost * (row[k] - plan);
+  }
 }
 
 void smooth(std::span<float> values, const std::array<float, 4>& past, int order) {
