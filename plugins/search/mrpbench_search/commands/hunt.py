@@ -91,6 +91,8 @@ def _print(name: str, hunt: Hunt, files: Sequence[dict[str, str]], runs: int, en
         print_table(*table(failures))
     for number, (failure, written) in enumerate(zip(failures, files, strict=True), start=1):
         print(f"{number}: {failure.reason}")
+        if not failure.is_smallest:
+            print("   shrinking has not ended: the same command with a higher --budget continues")
         print(f"   {', '.join(written.values())}")
     for kind, run_id in hunt.others.items():
         print(f"also seen, but not searched for: {kind}, e.g. run {run_id[:12]}")

@@ -42,6 +42,7 @@ _CONTACTS = ("execution.robot_contacts", "execution.wall_contacts", "people.cont
 _NOT_ARRIVED = (RunStatus.GOALS_MISSED, RunStatus.EXECUTION_ABORTED)
 _NO_PLAN = (RunStatus.PLAN_TIMEOUT, RunStatus.PLAN_NOT_FOUND)
 _CRASHED = (RunStatus.CRASHED, RunStatus.CONTRACT_BROKEN, RunStatus.ASSIGNMENT_FAILED)
+_TOO_LONG = "a plan that takes longer than `limits.execution`"
 _BOUND = re.compile(r"\s*([\w.@/-]+\.[\w.]+)\s*([<>])\s*(-?[\d.]+(?:e-?\d+)?)\s*")
 _WORSE = re.compile(r"\s*(.+?) worse than (.+?) by ([\d.]+) ?%\s*")
 
@@ -159,7 +160,7 @@ def read_property(text: str, candidates: Sequence[str], columns: Columns, column
             raise InputError(f"--for {text}: the study has no column {name}", hint=did_you_mean(name, list(columns)))
         return Bound(" ".join(found.groups()), name, found[2] == ">", float(found[3]))
     raise InputError(
-        f"--for {text}: is no failure",
+        f"--for {text}: not a failure that can be searched for",
         hint=f"{', '.join(KINDS)}, {ANY} (any of them), `execution.duration_s > 60` or `B worse than A by 20 %`",
     )
 
@@ -185,8 +186,11 @@ def failures(record: Record) -> tuple[str, ...]:
         found.append("invalid")
     if any(metrics.get(name) for name in _CONTACTS):
         found.append("contact")
-    if status in _NOT_ARRIVED:
-        found.append("deadlock" if metrics.get("deadlock.unresolved") else "stuck")
+    if status in _NOT_ARRIVED and metrics.get("deadlock.unresolved"):
+        found.append("deadlock")
+    elif status in _NOT_ARRIVED:
+        planned, limit = metrics.get("planning.makespan"), record["config"]["limits"]["execution"]
+        found.append(_TOO_LONG if planned and planned > limit else "stuck")
     if (lateness(record) or 0) > LATE or metrics.get("tasks.late"):
         found.append("late")
     if status in _NO_PLAN:

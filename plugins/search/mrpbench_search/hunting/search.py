@@ -97,7 +97,7 @@ class Hunt:
             if mark in self.failures:
                 self.failures[mark].times += 1
                 continue
-            self.announce(f"{kind} after {self.tried} cases: {reason}")
+            self.announce(f"{kind} after {counted(self.tried, 'case')}: {reason}")
             failure = Failure(kind=kind, signature=mark, reason=reason, first=judged, after=self.tried, smallest=judged)
             self.failures[mark] = failure
             self._shrink(failure)
@@ -114,7 +114,8 @@ class Hunt:
 
         failure.smallest, failure.is_smallest = shrink(failure.first, self.runs, same)
         failure.reason = self.runs.signature(failure.smallest, failure.kind)[1]
-        self.announce(f"smallest case: {counted(failure.smallest.case.robots, 'robot')}: {failure.reason}")
+        found = "smallest case" if failure.is_smallest else "smallest case so far"
+        self.announce(f"{found}: {counted(failure.smallest.case.robots, 'robot')}: {failure.reason}")
 
     def _repeat(self, failure: Failure) -> None:
         """Run the smallest case again with other noise."""

@@ -108,6 +108,16 @@ def test_a_budget_ends_a_hunt_that_finds_nothing(hall):
     assert "the budget is spent" in output
 
 
+def test_a_budget_that_ends_before_shrinking_does_is_named(hall):
+    words = ("hunt", "hall.yaml", "planner=example", "--for", "planning.makespan > 0", "--most", "1")
+    code, output, errors = hall(*words, "--budget", "4runs")
+    assert code == 1, errors
+    assert "makespan > 0 after 1 case: " in output
+    assert "smallest case so far: 4 robots: " in output
+    assert "shrinking has not ended: the same command with a higher --budget continues" in output
+    assert "shrinking" not in hall(*words)[1]
+
+
 def test_a_hunt_goes_on_where_no_task_is_released_with_the_first_seed(hall):
     world = "world={plugin: movingai, file: hall.map, resolution: 1}"
     words = (world, "planner={plugin: rolling_horizon, planner: pibt}", "simulator=kinematic", "control_rate=5")
@@ -133,7 +143,7 @@ def test_the_smallest_case_of_two_candidates_is_a_study_of_both(hall):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--for", "boredom"), "--for boredom: is no failure"),
+        (("--for", "boredom"), "--for boredom: not a failure that can be searched for"),
         (("planner=[example, cbs]",), "the study has 2 candidates"),
         (("--for", "cbs worse than example by 20 %"), "the study has no candidate 'cbs'"),
         (("--most", "0"), "--most 0: at least 1"),

@@ -28,6 +28,12 @@ def reading(text, candidates=("",), column=DURATION):
         (record("crashed"), ("crash",)),
         (record("goals_missed", deadlock__unresolved=True), ("deadlock",)),
         (record("goals_missed", deadlock__unresolved=False), ("stuck",)),
+        (
+            record("goals_missed", planning__makespan=101.0),
+            ("a plan that takes longer than `limits.execution`",),
+        ),
+        (record("goals_missed", planning__makespan=101.0, deadlock__unresolved=True), ("deadlock",)),
+        (record("goals_missed", planning__makespan=99.0), ("stuck",)),
         (record(execution__robot_contacts=1), ("contact",)),
         (record(people__contacts_per_robot_h=3.0), ("contact",)),
         (record(execution__duration_s=21.0, planning__makespan=10.0), ("late",)),
@@ -89,7 +95,7 @@ def test_a_candidate_is_worse_by_more_than_a_share_or_by_failing_alone():
 @pytest.mark.parametrize(
     ("text", "candidates", "message"),
     [
-        ("boredom", ("",), "is no failure"),
+        ("boredom", ("",), "not a failure"),
         ("deadlock", ("cbs", "pbs"), "the study has 2 candidates"),
         ("execution.duration > 3", ("",), "the study has no column execution.duration"),
         ("cbs worse than pibt by 20 %", ("cbs", "pbs"), "no candidate 'pibt'"),
