@@ -48,9 +48,9 @@ Routes routes_of(const nb::dict& tables, std::size_t robots) {
   it.is_wait = vector("is_wait", waypoints, bool{});
   it.arrival = rows<Arrival>(arrays.rows<6>("arrival", waypoints));
   it.corners = rows<Point>(arrays.rows<2>("corners", corners));
-  it.legs = rows<Leg>(arrays.rows<5>("legs", corners));
-  it.rounding = rows<Rounding>(arrays.rows<4>("rounding", corners));
-  it.clearing = rows<Clearing>(arrays.rows<3>("clearing", corners));
+  it.step = rows<Point>(arrays.rows<2>("step", corners));
+  it.normal = rows<Point>(arrays.rows<2>("normal", corners));
+  it.clearance = vector("clearance", corners, double{});
   it.distance = vector("distance", corners, double{});
   it.is_short = vector("is_short", corners, bool{});
   it.stop = vector("stop", corners, Index{});

@@ -22,10 +22,8 @@ struct Grid {
   std::vector<std::int16_t> level;
   std::vector<double> speed, yaw, distance;
   std::vector<Arrival> arrival;
-  std::vector<Point> corners;
-  std::vector<Leg> legs;
-  std::vector<Rounding> rounding;
-  std::vector<Clearing> clearing;
+  std::vector<Point> corners, step, normal;
+  std::vector<double> clearances;
   std::unique_ptr<bool[]> is_wait, is_short;
 
   Grid(std::mt19937& random, std::size_t waypoints) : is_wait(new bool[waypoints]), is_short(new bool[waypoints]) {
@@ -40,10 +38,9 @@ struct Grid {
     const auto end = static_cast<Index>(corners.size()) - 1;
     for (Index c = 0; c <= end; ++c) {
       const Point here = corners[c], next = corners[std::min(c + 1, end)], after = corners[std::min(c + 2, end)];
-      const Point step{next.x - here.x, next.y - here.y};
-      legs.push_back({here.x, here.y, step.x, step.y, c < end ? 1.0 : nan});
-      rounding.push_back({next.x, next.y, after.x - here.x, after.y - here.y});
-      clearing.push_back({here.x, here.y, clearance});
+      step.push_back({next.x - here.x, next.y - here.y});
+      normal.push_back({after.x - here.x, after.y - here.y});
+      clearances.push_back(clearance);
       distance.push_back(static_cast<double>(c));
       stop.push_back(end);
       lift.push_back(end + 1);
@@ -70,9 +67,9 @@ struct Grid {
             {is_wait.get(), corner.size()},
             arrival,
             corners,
-            legs,
-            rounding,
-            clearing,
+            step,
+            normal,
+            clearances,
             distance,
             {is_short.get(), corners.size()},
             stop,
@@ -89,11 +86,11 @@ struct Counts {
     const auto arrives = [&](Index w) { return its.is_wait[w] || its.arrival[w].holds(at.x, at.y); };
     while (reached < released && arrives(reached + 1)) ++reached;
     const Index here = its.corner[reached];
-    while (leg + 1 < its.corner[released] && here > leg && its.rounding[leg].holds(at.x, at.y)) ++leg;
+    while (leg + 1 < its.corner[released] && here > leg && its.routes().rounding(leg).holds(at.x, at.y)) ++leg;
     for (; cleared < std::min(released, reached + 1); ++cleared) {
       const Index from = its.corner[cleared];
       if (from >= its.last_corner[0] || here < from) break;
-      if (!(its.is_short[from] && here > from) && !its.clearing[from].holds(at.x, at.y)) break;
+      if (!(its.is_short[from] && here > from) && !its.routes().clearing(from).holds(at.x, at.y)) break;
     }
   }
 };

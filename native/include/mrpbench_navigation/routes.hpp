@@ -1,6 +1,7 @@
 // The routes of a fleet as robots drive them, in tables. The navigator `waypoints` fills them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -52,13 +53,22 @@ struct Routes {
   std::span<const bool> is_wait;                                        // W
   std::span<const Arrival> arrival;                                     // W
   std::span<const Point> corners;                                       // C
-  std::span<const Leg> legs;                                            // C
-  std::span<const Rounding> rounding;                                   // C: of the corner at the end of each leg
-  std::span<const Clearing> clearing;                                   // C
+  std::span<const Point> step;                                          // C: of each leg
+  std::span<const Point> normal;                                        // C: of the rounding at the end of each leg
+  std::span<const double> clearance;                                    // C: at which each corner is cleared
   std::span<const double> distance;                                     // C: metres along all legs
   std::span<const bool> is_short;                                       // C: no longer than the clearance
   std::span<const Index> stop, lift;  // C: the next corner at which a path ends, or a robot enters a lift
   bool any_yaw = true;                // no robot has to turn at the end of its path
+
+  Leg leg(Index row) const {
+    const auto [x, y] = corners[row];
+    const auto [dx, dy] = step[row];
+    return {x, y, dx, dy, std::max(dx * dx + dy * dy, 1e-300)};
+  }
+  /// Of the corner at the end of a leg that is not a robot's last one.
+  Rounding rounding(Index row) const { return {corners[row + 1].x, corners[row + 1].y, normal[row].x, normal[row].y}; }
+  Clearing clearing(Index row) const { return {corners[row].x, corners[row].y, clearance[row]}; }
 };
 
 /// The sign of `std::hypot(dx, dy) - bound`, of a bound that is not negative. The squares are compared, and the root is

@@ -92,7 +92,7 @@ void RouteFollower::count_passed(std::size_t robot, const Pose& pose) {
   double least = std::numeric_limits<double>::infinity(), own = 0;
   Index choice = it.leg;
   for (Index leg = it.leg; leg < it.leg + legs_ahead && leg <= last; ++leg) {
-    const Leg& way = routes_.legs[first + leg];
+    const Leg way = routes_.leg(first + leg);
     const Point nearest = way.nearest(pose.x, pose.y);
     const double along = routes_.distance[first + leg] + std::hypot(nearest.x - way.x, nearest.y - way.y);
     double gap = std::hypot(pose.x - nearest.x, pose.y - nearest.y);
@@ -119,7 +119,7 @@ void RouteFollower::count_up_to(std::size_t robot, Index corner) {
 void RouteFollower::count_corners(std::size_t robot, const Pose& pose) {
   Progress& it = progress_[robot];
   const Index first = routes_.first_corner[robot], reached = corner(robot, it.reached);
-  while (it.leg + 1 < it.end && reached > it.leg && routes_.rounding[first + it.leg].holds(pose.x, pose.y)) ++it.leg;
+  while (it.leg + 1 < it.end && reached > it.leg && routes_.rounding(first + it.leg).holds(pose.x, pose.y)) ++it.leg;
 }
 
 // A segment no longer than the clearance is cleared when it is reached: the robot may have to wait at its end, and the
@@ -130,7 +130,7 @@ void RouteFollower::count_cleared(std::size_t robot, const Pose& pose, Index rel
   for (; it.cleared < furthest; ++it.cleared) {
     const Index at = corner(robot, it.cleared), row = routes_.first_corner[robot] + at;
     if (at >= routes_.last_corner[robot] || reached < at) return;
-    if (!(routes_.is_short[row] && reached > at) && !routes_.clearing[row].holds(pose.x, pose.y)) return;
+    if (!(routes_.is_short[row] && reached > at) && !routes_.clearing(row).holds(pose.x, pose.y)) return;
   }
 }
 
@@ -145,7 +145,7 @@ void RouteFollower::look_ahead(std::size_t robot) {
   const Index end = std::min(routes_.stop[first_corner + next], it.end);
   const double yaw = is_open ? routes_.yaw[until] : routes_.waiting_yaw[until];
   Ahead& ahead = ahead_[robot];
-  ahead.leg = routes_.legs[first_corner + it.leg];
+  ahead.leg = routes_.leg(first_corner + it.leg);
   ahead.begin = first_corner + std::min(it.leg + 1, end);
   ahead.end = first_corner + end + 1;
   ahead.path_end = routes_.corners[first_corner + end];
@@ -169,11 +169,11 @@ void RouteFollower::await(std::size_t robot) {
     next.at_once = next.at_once || routes_.is_wait[goal];
   }
   next.may_round = it.leg + 1 < it.end && reached > it.leg;
-  if (next.may_round) next.rounding = routes_.rounding[first_corner + it.leg];
+  if (next.may_round) next.rounding = routes_.rounding(first_corner + it.leg);
   if (it.cleared < std::min(it.released, it.reached + 1)) {
     const Index at = corner(robot, it.cleared);
     next.may_clear = at < routes_.last_corner[robot] && reached >= at;
-    if (next.may_clear) next.clearing = routes_.clearing[first_corner + at];
+    if (next.may_clear) next.clearing = routes_.clearing(first_corner + at);
     next.at_once = next.at_once || (next.may_clear && routes_.is_short[first_corner + at] && reached > at);
   }
   awaited_[robot] = next;
@@ -185,7 +185,7 @@ void RouteFollower::rejoin(std::size_t robot, Point from) {
   double least = std::numeric_limits<double>::infinity();
   Index choice = it.leg;
   for (Index leg = it.leg; leg < end; ++leg) {
-    const Point nearest = routes_.legs[routes_.first_corner[robot] + leg].nearest(from.x, from.y);
+    const Point nearest = routes_.leg(routes_.first_corner[robot] + leg).nearest(from.x, from.y);
     const double gap = std::hypot(from.x - nearest.x, from.y - nearest.y);
     if (gap < least) least = gap, choice = leg;
   }

@@ -23,7 +23,7 @@ STRAIGHT = 0.3
 
 _TABLES = (
     *("first", "last", "goal", "first_corner", "last_corner", "corner", "level", "speed", "yaw", "waiting_yaw"),
-    *("is_wait", "arrival", "corners", "legs", "rounding", "clearing", "distance", "is_short", "stop", "lift"),
+    *("is_wait", "arrival", "corners", "step", "normal", "clearance", "distance", "is_short", "stop", "lift"),
 )
 
 
@@ -131,12 +131,12 @@ class RouteTables:
         step = np.where(is_last, 0, following - corners)
         length = np.hypot(*step)
         heading: Float = step / np.where(is_last, np.nan, length)
-        self.legs: Float = _table(*corners, *step, np.maximum((step * step).sum(axis=0), 1e-300))
-        """f8[C,5] x, y, step and squared length of the leg from each corner; a robot's last one has no length."""
-        self.rounding: Float = _table(*following, *(heading + heading.take(after, axis=1)))
-        """f8[C,4] the corner at the end of each leg and the direction in which a robot rounds it, NaN = it does not."""
-        self.clearing: Float = _table(*corners, clearance - SLACK)
-        """f8[C,3] each corner and the distance at which it is cleared."""
+        self.step: Float = _table(*step)
+        """f8[C,2] from each corner along its leg; a robot's last one has no length."""
+        self.normal: Float = _table(*(heading + heading.take(after, axis=1)))
+        """f8[C,2] the direction in which a robot rounds the corner at the end of each leg, NaN = it does not."""
+        self.clearance: Float = clearance - SLACK
+        """f8[C] the distance at which each corner is cleared."""
         self.distance: Float = np.cumsum(length) - length
         """f8[C] metres along the legs of all robots up to each corner."""
         self.is_short: Bool = length <= clearance + FINE
@@ -171,7 +171,7 @@ class RouteTables:
         and a robot that rests there would let them wait for ever. A tolerance `stated` beyond the usual one is kept.
         """
         least = stated if stated > USUAL else FINE
-        room = np.roll(np.where(self.is_short, np.inf, np.sqrt(self.legs[:, 4]) - self.clearing[:, 2]), 1)
+        room = np.roll(np.where(self.is_short, np.inf, np.sqrt((self.step**2).sum(axis=1)) - self.clearance), 1)
         room[self.first_corner] = np.inf
         return np.maximum(room, least)
 
