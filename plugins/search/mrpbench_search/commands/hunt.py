@@ -14,6 +14,7 @@ from mrpbench_core.files.errors import InputError
 from mrpbench_core.files.text import counted
 from mrpbench_core.report.reading.columns import describe_columns
 from mrpbench_core.store.folder import ResultsFolder
+from mrpbench_core.store.results import load
 from mrpbench_search.asking.arguments import add_search, searching, study_of
 from mrpbench_search.asking.configurations import by_configuration
 from mrpbench_search.asking.requests import read_whole_study
@@ -69,7 +70,7 @@ def run(arguments: argparse.Namespace) -> int:
             hunt = Hunt(moves=moves, runs=runs, announce=print)
             end = hunt.run(arguments.most)
             files = [
-                write_failure(out / "failures" / f"{number}-{_NO_WORD.sub('-', each.kind)}", each, runs)
+                write_failure(out / "failures" / f"{number}-{_NO_WORD.sub('-', each.kind).strip('-')}", each, runs)
                 for number, each in enumerate(hunt.failures.values(), start=1)
             ]
     if arguments.json:
@@ -94,6 +95,9 @@ def _print(name: str, hunt: Hunt, files: Sequence[dict[str, str]], runs: int, en
         if not failure.is_smallest:
             print("   shrinking has not ended: the same command with a higher --budget continues")
         print(f"   {', '.join(written.values())}")
+    if hunt.left_out:
+        refused = (load(out)[hunt.left_out[0]].get("error") or {}).get("message", "skipped")
+        print(f"{counted(len(hunt.left_out), 'further case')} left out, e.g. run {hunt.left_out[0][:12]}: {refused}")
     for kind, run_id in hunt.others.items():
         print(f"also seen, but not searched for: {kind}, e.g. run {run_id[:12]}")
     print(f"{counted(runs, 'run')} in {out}; the search ended: {end}")

@@ -18,7 +18,7 @@ from mrpbench_search.hunting.search import Failure, Hunt
 
 def sentence(name: str, hunt: Hunt) -> str:
     """Say what was found."""
-    tried = counted(hunt.tried, "case")
+    tried = counted(hunt.tried - len(hunt.left_out), "case")
     if not hunt.failures:
         return f"{name}: nothing breaks `{hunt.runs.tried.text}` in {tried}"
     found = [f"{each.kind} with {counted(each.smallest.case.robots, 'robot')}" for each in hunt.failures.values()]
@@ -49,7 +49,8 @@ def document(name: str, hunt: Hunt, files: Sequence[dict[str, str]], runs: int, 
             for each, written in zip(hunt.failures.values(), files, strict=True)
         ],
         "others": hunt.others,
-        "cases": hunt.tried,
+        "cases": hunt.tried - len(hunt.left_out),
+        "left_out": len(hunt.left_out),
         "runs": runs,
         "ended": end,
         "out": str(out),

@@ -7,6 +7,7 @@ import attrs
 
 from mrpbench_core.engine.loading.runs import StudyRun, StudyRuns
 from mrpbench_core.files.errors import InputError
+from mrpbench_core.model.runs.status import LEFT_OUT
 from mrpbench_core.store.results import Results
 from mrpbench_search.asking.requests import Requests
 from mrpbench_search.asking.variants import read_variants
@@ -22,6 +23,11 @@ class Judged:
     case: Case
     records: tuple[Record, ...]
     verdict: Verdict
+
+    @property
+    def left_out(self) -> bool:
+        """Tell whether a run of the case was refused, for example since a robot starts in a doorway."""
+        return any(record["status"] in LEFT_OUT for record in self.records)
 
     @property
     def size(self) -> tuple[int, int, float]:

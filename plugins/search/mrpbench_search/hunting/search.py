@@ -60,13 +60,15 @@ class Hunt:
     """By signature."""
     others: dict[str, str] = attrs.field(factory=dict, init=False)
     """Kinds of failures that the hunt is not for, each with the id of a run."""
+    left_out: list[str] = attrs.field(factory=list, init=False)
+    """The id of a run of each case that a component refuses, so that it shows nothing."""
     _tried: set[str] = attrs.field(factory=set, init=False)
     """Keys of the cases of the search, without those of shrinking."""
     _elite: list[Judged] = attrs.field(factory=list, init=False)
 
     @property
     def tried(self) -> int:
-        """Number of different cases of the search, without those of shrinking."""
+        """Number of different cases of the search, without those of shrinking; some of them may be left out."""
         return len(self._tried)
 
     def run(self, most: int | None = None) -> str:
@@ -90,6 +92,8 @@ class Hunt:
 
     def _take(self, judged: Judged) -> None:
         """Keep what a case shows; a failure of a new kind is shrunk at once."""
+        if judged.left_out:
+            self.left_out.append(judged.records[0]["run_id"])
         for kind in judged.verdict.others:
             self.others.setdefault(kind, judged.records[0]["run_id"])
         for kind in judged.verdict.failures:

@@ -127,6 +127,25 @@ def test_a_hunt_goes_on_where_no_task_is_released_with_the_first_seed(hall):
     assert json.loads(output)["cases"] == 4
 
 
+def test_cases_that_a_component_refuses_are_no_cases_in_which_nothing_breaks(hall):
+    Path("passing.yaml").write_text("""\
+name: passing
+world: warehouse
+roadmap: graph
+scenario: {plugin: named, starts: [dock_1, dock_2], goals: [bay_1, bay_2]}
+tasks: {plugin: pickup_delivery, rate: 4, pickups: [dock_*], dropoffs: [pick_station_*]}
+assigner: token_passing
+planner: {plugin: rolling_horizon, planner: token_passing}
+replanning: {parking: home}
+limits: {execution: 30 s, iterations: 5}
+""")
+    code, output, errors = hall("hunt", "passing.yaml", "--budget", "4runs")
+    assert code == 0, errors
+    assert "passing: nothing breaks `failure` in 0 cases" in output
+    assert "4 further cases left out, e.g. run " in output
+    assert ": needs well-formed tasks: robot " in output
+
+
 def test_the_smallest_case_of_two_candidates_is_a_study_of_both(hall):
     words = ("planner=[cbs, example]", "--for", "example worse than cbs by 0.1 %", "--metric", "planning.sum_of_costs")
     code, output, errors = hall("hunt", "hall.yaml", *words, "--most", "1", "--budget", "200runs", "--json")

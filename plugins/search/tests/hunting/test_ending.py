@@ -29,7 +29,7 @@ class Harmless:
     """Runs in which nothing fails."""
 
     def judge(self, cases, word, first):
-        return [SimpleNamespace(case=case, verdict=Verdict(margin=float(case.key))) for case in cases]
+        return [SimpleNamespace(case=case, left_out=False, verdict=Verdict(margin=float(case.key))) for case in cases]
 
 
 def test_a_search_ends_where_a_study_has_no_further_cases_and_counts_each_once():

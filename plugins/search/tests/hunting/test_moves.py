@@ -166,7 +166,7 @@ class Runs:
             Verdict(margin=-1.0, failures=("contact",)) if self.fails(c) else Verdict(margin=1.0) for c in cases
         ]
         return [
-            Judged(case=case, records=({"run_id": "a"},), verdict=verdict)
+            Judged(case=case, records=({"run_id": "a", "status": "succeeded"},), verdict=verdict)
             for case, verdict in zip(cases, verdicts, strict=True)
         ]
 
