@@ -51,11 +51,11 @@ def sentence(rows: Sequence[CandidateResult], rules: Rules) -> str:
     parts = [f"{best.candidate} leads" if by[Standing.OPEN] else best.candidate]
     if good := [row.candidate for row in by[Standing.AS_GOOD]]:
         parts.append(f"{listed(good)} {'is' if len(good) == 1 else 'are'} as good within {100 * rules.margin:g} %")
-    if not_decided := by[Standing.OPEN]:
-        names = listed([f"{row.candidate} ({_change(row)})" for row in not_decided])
-        parts.append(f"not decided after {counted(best.seeds, 'seed')}: {names}")
     name = rules.column.name.rpartition(".")[2]
-    parts += [f"{row.candidate} has {_change(row)} {name}" for row in by[Standing.WORSE]]
+    if not_decided := by[Standing.OPEN]:
+        names = listed([f"{row.candidate} ({_change(row, name)})" for row in not_decided])
+        parts.append(f"not decided after {counted(best.seeds, 'seed')}: {names}")
+    parts += [f"{row.candidate} has {_change(row, name)}" for row in by[Standing.WORSE]]
     parts += [f"{row.candidate} fails at {row.failed} of {counted(row.seeds, 'seed')}" for row in by[Standing.FAILS]]
     if best.failed:
         parts.append(f"{best.candidate} itself fails at {best.failed} of {counted(best.seeds, 'seed')}")
@@ -119,7 +119,7 @@ def _result(one: int, name: str, race: Race, outcomes: Outcomes, column: Column)
     )
 
 
-def _change(row: CandidateResult) -> str:
+def _change(row: CandidateResult, name: str) -> str:
     if row.change is None:
-        return "no common seed"
-    return f"{abs(100 * row.change):.1f} % {'more' if row.change >= 0 else 'less'}"
+        return f"no seed with a {name} of both"
+    return f"{abs(100 * row.change):.1f} % {'more' if row.change >= 0 else 'less'} {name}"

@@ -60,7 +60,7 @@ def find_candidates(study: StudyRuns, choices: Sequence[str] = CHOICES) -> list[
         if len(setting.names) < 2:
             varied = ", ".join(dict.fromkeys(key.partition(".")[0] for key in setting.axes))
             raise InputError(
-                f"the study has one candidate: {' and '.join(choices)} do not vary"
+                f"the study has one candidate: none of {', '.join(choices)} varies"
                 + (f" with {setting.name}" if setting.name else ""),
                 hint=f"--candidates names other options; these vary: {varied}" if varied else "list some in the matrix",
             )

@@ -127,4 +127,5 @@ def _print(said: str, rows: list[Row], currency: str, notes: list[str]) -> None:
     print(f"\n{said}")
     for note in notes:
         print(note)
-    print_table(*table(rows, currency))
+    if rows:
+        print_table(*table(rows, currency))

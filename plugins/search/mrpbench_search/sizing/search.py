@@ -107,14 +107,12 @@ class Fleets:
         wanted = islice(chain(seeds, count(max(seeds) + 1)), len(seeds) << look)
         return [{"seed": seed, "repeat": repeat} for seed in wanted for repeat in repeats]
 
-    def _looks_of(self, sizes: Mapping[int, object]) -> dict[int, int]:
-        return {size: self._looks[size, None] for size in sizes}
-
     def _next(self, first: int) -> int | None:
         """The fleet to try or to repeat next."""
         high = smallest(self.verdicts)[1]
         busy = high * self.tried[high].utilisation if high else 0.0
-        return next_size(self.verdicts, self._looks_of(self.tried), first, self.most, busy)
+        looks = {size: self._looks[size, None] for size in self.tried}
+        return next_size(self.verdicts, looks, first, self.most, busy)
 
     def _try(self, size: int) -> None:
         try:
@@ -165,8 +163,8 @@ def figures(records: Sequence[Mapping[str, Any]], robots: int, bound_s: float) -
     by_seed: dict[int, list[Mapping[str, Any]]] = {}
     for record in records:
         by_seed.setdefault(record["seed"], []).append(record)
-    if any(record["metrics"].get("tasks.open_growth") is None for record in records):
-        bad = next(record for record in records if record["metrics"].get("tasks.open_growth") is None)
+    bad = next((record for record in records if record["metrics"].get("tasks.open_growth") is None), None)
+    if bad is not None:
         raise InputError(
             f"run {bad['run_id']} ({bad['status']}) has no growth: fewer than two orders arrive after the warm-up, or"
             " the run was not measured",

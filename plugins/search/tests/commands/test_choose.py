@@ -4,7 +4,11 @@ import json
 from pathlib import Path
 
 import pytest
+from mrpbench_search.choosing.answer import CandidateResult, sentence
+from mrpbench_search.choosing.race import Standing
+from mrpbench_search.choosing.search import Rules
 
+from mrpbench_core.api.metric import Column
 from mrpbench_core.store.results import load
 
 STUDY = """\
@@ -49,6 +53,20 @@ def test_a_budget_ends_the_race_before_a_step_that_exceeds_it(room):
     assert "room: nothing is decided" in output
 
 
+def test_what_is_not_decided_names_the_metric():
+    rows = [
+        CandidateResult(candidate=name, standing=standing, seeds=9, failed=0, mean=2.0, change=change)
+        for name, standing, change in (
+            ("a", Standing.BEST, None),
+            ("b", Standing.OPEN, 0.092),
+            ("c", Standing.OPEN, None),
+        )
+    ]
+    rules = Rules(column=Column("planning.sum_of_costs", "s", "lower", ""), level=0.05, margin=0.02)
+    undecided = "b (9.2 % more sum_of_costs) and c (no seed with a sum_of_costs of both)"
+    assert sentence(rows, rules) == f"a leads; not decided after 9 seeds: {undecided}"
+
+
 def test_shards_of_a_step_are_merged_by_copying(room):
     for part in "01":
         code, output, _ = room("choose", "room.yaml", "--shard", f"{part}/2", "--out", "parts")
@@ -67,6 +85,7 @@ def test_a_shard_alone_says_what_it_lacks(room):
     [
         (("seed=0..2",), "seed: 3 seeds cannot decide between 2 candidates"),
         (("planner=example",), "the study has one candidate"),
+        (("--candidates", "nosuch"), "the study has one candidate: none of nosuch varies"),
         (("--metric", "planning.sum"), "the study has no such column"),
         (("--margin", "2"), "--margin 2: between 0 and 1"),
         (("--budget", "soon"), "--budget soon: expected a time"),

@@ -46,6 +46,14 @@ def test_robots_are_added_until_the_budget_is_spent(floor):
     assert "[1/" not in errors
 
 
+def test_a_budget_without_a_run_prints_no_empty_table(floor):
+    code, output, _ = floor("size", "floor.yaml", "--orders", "60/h", "--budget", "1runs")
+    assert code == 1
+    assert (
+        "floor: nothing is shown\n0 runs in results/floor-size; the search ended before: the budget is spent" in output
+    )
+
+
 ENERGY = "{chargers: ['*'], battery: {capacity: 0.5, voltage: 10, ambient: 100, charging_current: 20}}"
 """Empty within three minutes; full again in a minute and a half."""
 SHIFT = STUDY.replace("world: {plugin: movingai, file: floor.map, resolution: 0.5}", "world: office").replace(
