@@ -62,6 +62,13 @@ def test_doors_turn_and_slide_until_they_are_open(room):
     assert float(slide.findtext("axis/limit/upper")) == pytest.approx(0.9)
 
 
+def test_topics_of_doors_have_no_spaces(room):
+    level = room.levels[0]
+    named = attrs.evolve(room, levels=(attrs.evolve(level, doors=(attrs.evolve(level.doors[0], name="main door"),)),))
+    topics = [plugin.findtext("topic") for plugin in ET.fromstring(write_sdf(scene_of(named))).iter("plugin")]
+    assert "/L1_main_door_0/position" in topics
+
+
 def test_robots_have_their_drive_and_lidar(recording):
     robots = robots_of(recording)
     models = {

@@ -26,7 +26,8 @@ def write_ros_map(file: Path, occupancy: Occupancy) -> None:
     grey = np.where(occupancy.blocked[::-1], OCCUPIED, FREE).astype(np.uint8)
     x, y = occupancy.origin
     text = (
-        f"image: {image.name}\nmode: trinary\nresolution: {occupancy.resolution!r}\norigin: [{x!r}, {y!r}, 0]\n"
+        f"image: {json.dumps(image.name, ensure_ascii=False)}\nmode: trinary\n"
+        f"resolution: {occupancy.resolution!r}\norigin: [{x!r}, {y!r}, 0]\n"
         "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.25\n"
     )
     _write(image, f"P5\n{columns} {rows}\n255\n".encode() + grey.tobytes())

@@ -6,6 +6,7 @@ wheels (`gz-sim-diff-drive-system`), a caster without friction and a lidar (`gpu
 """
 
 import math
+import re
 from collections.abc import Iterable
 from xml.etree import ElementTree as ET
 
@@ -106,7 +107,7 @@ def _door(world: ET.Element, leaf: Leaf) -> None:
     file, name = "gz-sim-joint-position-controller-system", "gz::sim::systems::JointPositionController"
     system = ET.SubElement(model, "plugin", filename=file, name=name)
     _add(system, "joint_name", "joint")
-    _add(system, "topic", f"/{leaf.name}/position")
+    _add(system, "topic", f"/{re.sub(r'[^A-Za-z0-9_]', '_', leaf.name)}/position")  # topics have no spaces
 
 
 def _robot(world: ET.Element, robot: PlacedRobot) -> None:
