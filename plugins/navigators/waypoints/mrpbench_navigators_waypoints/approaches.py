@@ -21,8 +21,8 @@ REACH = 0.25
 """metres from the end of its path within which a robot is driven there: the goal tolerance of Nav2."""
 _NEARER = 0.01
 """metres by which a robot that drives comes nearer from one look to the next."""
-_TURNING = 0.3
-"""rad/s from which a robot turns on purpose."""
+_DRIVING = (0.1, 0.3)
+"""m/s and rad/s: a robot that is commanded more is to move, even if something holds it."""
 _TIME_ALLOWANCE = 10.0
 """seconds, as that of Nav2's behaviours."""
 
@@ -46,14 +46,14 @@ class Approaches:
         self._seen.clear()
         self._tried.clear()
 
-    def find(self, robots: Iterable[int], pose: Float, twist: Float) -> list[int]:
+    def find(self, robots: Iterable[int], pose: Float, command: Float) -> list[int]:
         """Return those of `robots`, which hardly move, that also did not come nearer to the end since they were here.
 
-        Each robot is found once for each end. `pose` f8[n,3] and `twist` f8[n,2] are those of the fleet.
+        Each robot is found once for each end. `pose` f8[n,3] and `command` f8[n,2] are those of the fleet.
         """
-        return [robot for robot in robots if self._stands(robot, pose[robot], float(twist[robot, 1]))]
+        return [robot for robot in robots if self._stands(robot, pose[robot], command[robot])]
 
-    def _stands(self, robot: int, pose: Float, turn: float) -> bool:
+    def _stands(self, robot: int, pose: Float, command: Float) -> bool:
         follower, others = self._follower, self._follower.activities
         if others.recovering[robot] or others.aborted[robot] or others.detouring[robot]:
             return False
@@ -62,8 +62,8 @@ class Approaches:
         end, left = int(follower.end[robot]), math.dist(follower.path_end(robot), pose[:2].tolist())
         before = self._seen.get(robot)
         self._seen[robot] = end, left
-        stands = before is not None and before[0] == end and before[1] - left < _NEARER and abs(turn) < _TURNING
-        if not stands or left > REACH or self._tried.get(robot) == end:
+        stands = before is not None and before[0] == end and before[1] - left < _NEARER
+        if not stands or left > REACH or self._tried.get(robot) == end or (np.abs(command) > _DRIVING).any():
             return False
         self._tried[robot] = end
         return True

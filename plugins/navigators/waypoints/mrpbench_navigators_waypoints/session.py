@@ -64,7 +64,7 @@ class WaypointsSession(NavigatorSession):
         if failed or stuck is not None:
             self._recover(now, observation, stuck, failed, twist, events)
         if targets.blocked:
-            for robot in self.approaches.find(targets.rows["robot"][targets.blocked].tolist(), pose, measured):
+            for robot in self.approaches.find(targets.rows["robot"][targets.blocked].tolist(), pose, twist):
                 recoveries.approach(robot, now, pose, events)
         if recoveries:
             events += recoveries.step(now, pose, measured, twist)

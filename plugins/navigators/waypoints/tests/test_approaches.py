@@ -44,12 +44,12 @@ class _Controller(Controller):
         return self.session
 
 
-def drive(controller, points, pose, released, seconds=20, **options):
-    """The last motion of a Burger among Burgers and a Waffle, moved exactly as commanded, and all its recoveries."""
+def drive(controller, points, pose, released, seconds=20, moves=True):
+    """The last motion of a Burger in a fleet with a Waffle, moved as commanded or not, and all its recoveries."""
     ends = [np.column_stack([way, np.full(len(way), np.nan)]) for way in (points, [(9, 9), (9, 10)])]
     routes = [Route(waypoint=way, level=np.zeros(len(way)), speed=np.full(len(way) - 1, np.inf)) for way in ends]
     fleet = Fleet(robots=(BURGER, WAFFLE))
-    session = Waypoints(**options).start(fleet, World(name="w", levels=()), routes, controller, PERIOD, 0)
+    session = Waypoints().start(fleet, World(name="w", levels=()), routes, controller, PERIOD, 0)
     pose, twist, recoveries = np.array([pose, [9, 9, 0]], float), np.zeros((2, 2)), []
     for step in range(round(seconds / PERIOD)):
         seen = FleetObservation(
@@ -57,7 +57,7 @@ def drive(controller, points, pose, released, seconds=20, **options):
         )
         motion = session.step(step * PERIOD, seen, Orders(released=[released, 0]))
         recoveries += [(event.stamp, event.detail) for event in motion.events if event.kind == "recovery"]
-        twist = motion.twist.copy()
+        twist = motion.twist * moves
         yaw = pose[:, 2]
         pose = pose + PERIOD * np.column_stack([twist[:, 0] * np.cos(yaw), twist[:, 0] * np.sin(yaw), twist[:, 1]])
     return motion, recoveries
@@ -89,6 +89,10 @@ def test_other_robots_are_left_to_their_controllers(controller, released):
     ahead = [(0, 0), (0.4, 0), (0.8, 0)] if released == 1 else ASIDE
     seconds = 9.5  # before a robot without progress recovers
     assert drive(controller, ahead, [0.1, 0, 0], released, seconds)[1] == []
+
+
+def test_a_robot_that_something_holds_near_the_end_of_its_path_is_left_to_its_controller():
+    assert drive(_Controller(short=0.05, speed=0.2), ASIDE, [0.2, 0, 0], 2, seconds=9.5, moves=False)[1] == []
 
 
 def test_a_robot_is_driven_to_the_same_end_once_and_then_recovers_in_turn():
