@@ -7,6 +7,8 @@ import pytest
 from mrpbench_world.formats.usd import write_usd
 from mrpbench_world.scene import motion_of, robots_of, scene_of
 
+from mrpbench_core.files.errors import InputError
+
 pxr = pytest.importorskip("pxr")
 from pxr import Usd, UsdGeom, UsdPhysics, UsdValidation  # noqa: E402 - after the check that it is installed
 
@@ -48,3 +50,9 @@ def test_a_file_is_replaced(recording, tmp_path):
     for _ in range(2):
         write_usd(scene, tmp_path / "again.usdc")
     assert Usd.Stage.Open(str(tmp_path / "again.usdc")).GetDefaultPrim().GetName() == "World"
+
+
+def test_a_missing_folder_is_named(room, tmp_path):
+    with pytest.raises(InputError, match=r"a\.usda: cannot be written: its folder does not exist"):
+        write_usd(scene_of(room), tmp_path / "no" / "a.usda")
+    assert not (tmp_path / "no").exists()

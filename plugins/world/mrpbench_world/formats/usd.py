@@ -27,6 +27,8 @@ def write_usd(scene: Scene, file: Path) -> None:
     pxr = library("pxr", "usd")
     for name in ("Gf", "Tf", "Usd", "UsdGeom", "UsdPhysics"):
         library(f"pxr.{name}", "usd")
+    if not file.parent.is_dir():  # which a stage would make
+        raise InputError("cannot be written: its folder does not exist", file=file)
     file.unlink(missing_ok=True)  # a stage is not created over a file
     try:
         stage = pxr.Usd.Stage.CreateNew(str(file))
