@@ -8,6 +8,7 @@ import attrs
 from mrpbench_core.files.text import counted
 from mrpbench_core.report.answer.wording import listed
 from mrpbench_core.report.statistics.estimate import IntervalEstimate
+from mrpbench_search.saturation.rates import Verdict as Queues
 from mrpbench_search.sizing.fleets import FleetFigures, Limits, Verdict, smallest
 from mrpbench_search.sizing.prices import Prices
 from mrpbench_search.sizing.search import Fleets
@@ -36,7 +37,13 @@ def sentence(name: str, fleets: Fleets, load: Load) -> str:
         if not fleets.tried:
             return f"{name}: nothing is shown"
         largest = max(fleets.tried)
-        why = f": {fleets.limit}" if fleets.limit else f": {lacking(fleets.tried[largest], largest)} run out first"
+        found = fleets.tried[largest]
+        if fleets.limit:
+            why = f": {fleets.limit}"
+        elif found.verdict is Verdict.DOES_NOT:
+            why = f": {lacking(found, largest)} run out first"
+        else:
+            why = f"; {largest} may do, which {_evidence(found)}"
         return f"{name}: up to {counted(largest, 'robot')} no fleet is shown to serve {words}{why}"
     first = f"{counted(high, 'robot')}{_chargers(fleets)} serve{'s' if high == 1 else ''} {words}"
     parts = [first + _in_time(fleets.tried[high])]
@@ -65,7 +72,9 @@ def _evidence(found: FleetFigures) -> str:
     if found.in_time is None:
         return f"{counted(found.runs, 'run')} do not show"
     share = found.in_time
-    return f"{counted(found.runs, 'run')} do not show ({share.mean:.1%} [{share.low:.1%}, {share.high:.1%}] in time)"
+    queues = "" if found.growth.verdict is Queues.BOUNDED else "; queues are not shown to be bounded"
+    in_time = f"{share.mean:.1%} [{share.low:.1%}, {share.high:.1%}] in time"
+    return f"{counted(found.runs, 'run')} do not show ({in_time}{queues})"
 
 
 def _chargers(fleets: Fleets) -> str:

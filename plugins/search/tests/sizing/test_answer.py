@@ -42,6 +42,14 @@ def test_fleets_that_may_do_come_with_what_is_known_of_them():
     )
 
 
+def test_a_largest_fleet_that_is_not_decided_lacks_nothing():
+    fleets = search({3: figures(GROWING, LATE), 6: figures(UNSURE, IN_TIME, utilisation=0.4, runs=4)})
+    assert sentence("hall", fleets, LOAD) == (
+        "hall: up to 6 robots no fleet is shown to serve 60/h orders within 4min; 6 may do, which 4 runs do not show"
+        " (98.0% [96.0%, 99.0%] in time; queues are not shown to be bounded)"
+    )
+
+
 def test_the_fewest_chargers_belong_to_the_fleet():
     tried = {3: figures(GROWING, LATE), 4: figures(chargers_busy=0.4)}
     fleets = search(tried, {4: figures(chargers_busy=0.4), 2: figures(), 1: figures(UNSURE)})
