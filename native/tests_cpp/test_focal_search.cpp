@@ -150,28 +150,6 @@ TEST("paths are the cheapest, or have the fewest conflicts within the bound, in 
   CHECK(found > 300 && none > 10);
 }
 
-TEST("a robot that must not arrive too early stands instead of moving to and fro") {
-  for (int start = 0; start < 12; ++start) {
-    const Instance it = instance(grid(4, 3), {robot(start, 0)});
-    Limits limits = unlimited();
-    Statistics statistics;
-    const Space space(it, limits);
-    const AvoidanceTable others(space, limits);
-    ConstraintTable table(space, limits);
-    table.reset(0);
-    table.add({0, 0, {20, 0}, Constraint::Kind::length_above});
-    SafeIntervals intervals(space, limits, statistics);
-    FocalSearch search(space, intervals, limits, statistics);
-    DistanceTables distances(it, limits);
-    FoundPath path;
-    search.search(table, distances[0], others, {}, {1.0}, 0, path);
-    CHECK(path.cost == 21);
-    int moves = 0;
-    for (std::size_t tick = 1; tick < path.at.size(); ++tick) moves += path.at[tick] != path.at[tick - 1];
-    CHECK(moves == distances[0](start));
-  }
-}
-
 TEST("the queue returns the same entries as a sorted list, apart from outdated ones") {
   std::mt19937 random(3);
   for (int round = 0; round < 200; ++round) {

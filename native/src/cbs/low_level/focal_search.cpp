@@ -83,17 +83,16 @@ void FocalSearch::expand(std::int32_t node) {
   const ConstraintTable& table = *table_;
   const int robot = table.robot();
   const bool constrained = table.constrains(from.vertex);
+  // Once constraints no longer change, waiting costs more and can only avoid conflicts.
+  const bool may_wait = from.tick < table.settled() || bound_(from.f) > from.f;
+  if (may_wait && !(constrained && table.forbids_waiting(from.vertex, from.tick))) {
+    reach(from.vertex, from.tick + 1, node, -1, from.conflicts + others_->waiting(robot, from.vertex, from.tick));
+  }
   for (const Move& move : space_.moves(robot, from.vertex)) {
     const Tick arrive = from.tick + move.duration;
     if (constrained && table.forbids_entering(from.vertex, move.edge, from.tick)) continue;
     if (table.forbids(move.head, arrive)) continue;
     reach(move.head, arrive, node, move.edge, from.conflicts + others_->moving(robot, from.vertex, move, from.tick));
-  }
-  // Once constraints no longer change, waiting costs more and can only avoid conflicts. Among equals the newest state
-  // is the first, so that a robot with time left stands instead of moving to and fro.
-  const bool may_wait = from.tick < table.settled() || bound_(from.f) > from.f;
-  if (may_wait && !(constrained && table.forbids_waiting(from.vertex, from.tick))) {
-    reach(from.vertex, from.tick + 1, node, -1, from.conflicts + others_->waiting(robot, from.vertex, from.tick));
   }
 }
 
